@@ -18,7 +18,6 @@ namespace {
 
 using frontend::Error;
 using frontend::ExitCode;
-using Json = nlohmann::ordered_json;
 
 struct Design {
   std::string name;
@@ -51,14 +50,16 @@ class Run {
     Json files = Json::array();
     bool is_right = true;
     for (const Design& design : designs) {
-      const Result result = measure(design);
-      for (const std::string& wrong : result.wrong) {
+      Json result = measure(design);
+      for (const std::string wrong : result["wrong"]) {
         say(design.name + ": error: " + wrong + ": not measured" +
             (wrong.starts_with("gl") ? " (OpenGL computes in float; give --renderer=cpu)" : ""));
         is_right = false;
       }
       if (options_.json) {
-        files.push_back(json_of(design.name, result));
+        Json file = {{"file", design.name}};
+        file.update(result);
+        files.push_back(std::move(file));
       } else {
         frontend::print_text(stdout, table_of(design.name, result));
         std::fflush(stdout);
@@ -98,9 +99,9 @@ class Run {
     return {file.name, std::make_shared<const csgcore::Scene>(std::move(design.scene)), camera};
   }
 
-  Result measure(const Design& design) {
+  Json measure(const Design& design) {
     const std::vector<csgcore::View> views = turning_views(design.camera, options_.camera);
-    Result result =
+    Json result =
         bench::measure(design.scene, views, options_.settings, [&](const std::string& stage) {
           progress_.update((design.name + ": " + stage).c_str(), -1);
         });

@@ -1,6 +1,8 @@
 #include "measurement.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "base/elapsed.hpp"
 #include "frontend/scene_renderer.hpp"
@@ -34,9 +36,25 @@ std::string name_of(const Method& method) {
          (method.technique == Technique::kCells ? ", cells" : ", tiles");
 }
 
-/// The times of the stages, with one entry a run.
+/// The median, minimum and quartiles of one or more times.
+Json summarise(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto quantile = [&](double share) {  // between the two values that are nearest to the place
+    const double place = share * static_cast<double>(values.size() - 1);
+    const size_t below = static_cast<size_t>(place);
+    const size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+  };
+  return {{"median", quantile(0.5)},
+          {"least", values.front()},
+          {"quartiles", {quantile(0.25), quantile(0.75)}},
+          {"count", values.size()}};
+}
+
+/// The times of the stages of first frames, with one entry a run.
 struct Runs {
   std::vector<double> first, context, subdivide, shaders;
+  RenderStats stats;  // of the last
 };
 
 class Measurement {
@@ -45,18 +63,24 @@ class Measurement {
               const Progress& progress)
       : scene_(scene), views_(views), settings_(settings), progress_(progress) {}
 
-  Result run() {
-    result_.primitives = scene_->primitives.size();
-    result_.pixels = uint64_t{views_[0].width_px} * views_[0].height_px;
-    if (scene_->model.empty()) return std::move(result_);
-    exact_ = picture(settings_of(kMethods[0], Rule{}));
-    result_.hits = result_.pixels - static_cast<uint64_t>(std::count(
-                                        exact_.id.begin(), exact_.id.end(), csgcore::kNoPrimitive));
-    for (const Method& method : kMethods) {
-      if (settings_.frames && is_wanted(method.renderer)) measure_frames(method);
+  Json run() {
+    const uint64_t pixels = uint64_t{views_[0].width_px} * views_[0].height_px;
+    if (!scene_->model.empty()) {
+      exact_ = picture(settings_of(kMethods[0], Rule{}));
+      hits_ = pixels - static_cast<uint64_t>(
+                           std::count(exact_.id.begin(), exact_.id.end(), csgcore::kNoPrimitive));
+      for (const Method& method : kMethods) {
+        if (is_wanted(method.renderer)) measure_frames(method);
+      }
+      for (const Rule& rule : settings_.rules) measure_rule(rule);
     }
-    for (const Rule& rule : settings_.rules) measure_rule(rule);
-    return std::move(result_);
+    return {{"primitives", scene_->primitives.size()},
+            {"pixels", pixels},
+            {"hits", hits_},
+            {"frames", frames_},
+            {"rules", rules_},
+            {"left_out", left_out_},
+            {"wrong", wrong_}};
   }
 
  private:
@@ -91,7 +115,7 @@ class Measurement {
     } catch (const frontend::GlFailure& failure) {
       if (settings_.renderer == RendererKind::kGl) throw;
       has_gl_ = false;
-      result_.left_out.push_back("OpenGL: " + failure.reason());
+      left_out_.push_back("OpenGL: " + failure.reason());
       return std::nullopt;
     }
   }
@@ -101,11 +125,11 @@ class Measurement {
   bool is_right(const Method& method, const Rule& rule, const Image& image, uint64_t wrong) {
     if (rule.threshold_px > 0) return true;
     const bool right = method.renderer == RendererKind::kCpu ? is_same(image, exact_)
-                                                             : float_explains(wrong, result_.hits);
+                                                             : float_explains(wrong, hits_);
     if (!right) {
-      result_.wrong.push_back(name_of(method) + ": " + std::to_string(wrong) + " of " +
-                              std::to_string(result_.pixels) +
-                              " pixels show another face than the CPU's picture by tiles");
+      wrong_.push_back(name_of(method) + ": " + std::to_string(wrong) + " of " +
+                       std::to_string(exact_.id.size()) +
+                       " pixels show another face than the CPU's picture by tiles");
     }
     return right;
   }
@@ -115,35 +139,36 @@ class Measurement {
     progress_(name_of(method) + ": first frames");
     const std::optional<Image> image = try_picture(method, rule);
     if (!image) return;
-    FrameTimes times;
-    times.wrong_pixels = wrong_pixels(*image, exact_);
-    if (!is_right(method, rule, *image, times.wrong_pixels)) return;
+    const uint64_t wrong = wrong_pixels(*image, exact_);
+    if (!is_right(method, rule, *image, wrong)) return;
     const RenderSettings settings = settings_of(method, rule);
-    measure_first(settings, times);
+    const bool by_gl = method.renderer == RendererKind::kGl;
+    Runs runs = first_frames(settings);
+    Json times = {{"renderer", runs.stats.renderer}, {"technique", runs.stats.technique}};
+    if (by_gl) times["context"] = summarise(std::move(runs.context));
+    times["first"] = summarise(std::move(runs.first));
+    if (method.technique == Technique::kCells) {
+      times["first_subdivide"] = summarise(std::move(runs.subdivide));
+    }
+    if (by_gl) times["first_shaders"] = summarise(std::move(runs.shaders));
     progress_(name_of(method) + ": steady frames");
-    measure_steady(settings, times);
-    result_.frames.push_back(std::move(times));
+    times["steady"] = steady_frames(settings);
+    times["wrong_pixels"] = wrong;
+    frames_.push_back(std::move(times));
   }
 
-  void measure_first(const RenderSettings& settings, FrameTimes& times) const {
+  Runs first_frames(const RenderSettings& settings) const {
     Runs runs;
-    draw_first(settings, times, runs);  // what is slower only the first time does not count
+    draw_first(settings, runs);  // what is slower only the first time does not count
     runs = {};
     const Clock::time_point start = Clock::now();
     while (!settings_.repetitions.enough(runs.first.size(), ms_since(start))) {
-      draw_first(settings, times, runs);
+      draw_first(settings, runs);
     }
-    times.first = summarise(std::move(runs.first));
-    if (settings.technique == Technique::kCells) {
-      times.subdivide = summarise(std::move(runs.subdivide));
-    }
-    if (settings.renderer == RendererKind::kGl) {
-      times.context = summarise(std::move(runs.context));
-      times.shaders = summarise(std::move(runs.shaders));
-    }
+    return runs;
   }
 
-  void draw_first(const RenderSettings& settings, FrameTimes& times, Runs& runs) const {
+  void draw_first(const RenderSettings& settings, Runs& runs) const {
     SceneRenderer renderer;
     RenderStats first, again;
     const Clock::time_point start = Clock::now();
@@ -152,14 +177,13 @@ class Measurement {
     runs.first.push_back(ms_since(start) - first.context_ms);
     runs.context.push_back(first.context_ms);
     runs.subdivide.push_back(first.subdivide_ms);
-    times.renderer = first.renderer;
-    times.technique = first.technique;
+    runs.stats = first;
     if (settings.renderer != RendererKind::kGl) return;
     renderer.draw(views_[0], settings, again);
     runs.shaders.push_back(std::max(0.0, first.render_ms - again.render_ms));
   }
 
-  void measure_steady(const RenderSettings& settings, FrameTimes& times) const {
+  Json steady_frames(const RenderSettings& settings) const {
     SceneRenderer renderer;
     renderer.load(scene_);
     RenderStats stats;
@@ -172,46 +196,50 @@ class Measurement {
       renderer.draw(view, settings, stats);
       frames.push_back(ms_since(frame_start));
     }
-    times.steady = summarise(std::move(frames));
+    return summarise(std::move(frames));
   }
 
   void measure_rule(const Rule& rule) {
-    RuleTimes times;
-    times.rule = rule;
     progress_("the paper's times, K = " + std::to_string(rule.leaf_primitives));
-    measure_by_cpu(rule, times);
+    Json times = {{"leaf_primitives", rule.leaf_primitives}, {"threshold_px", rule.threshold_px}};
+    const Json cpu = measure_by_cpu(rule, times);
     if (is_wanted(RendererKind::kGl)) measure_by_gl(rule, times);
-    result_.rules.push_back(std::move(times));
+    if (is_wanted(RendererKind::kCpu)) times["cpu"] = cpu;
+    rules_.push_back(std::move(times));
   }
 
-  /// S is measured on the CPU, whichever renderer draws.
-  void measure_by_cpu(const Rule& rule, RuleTimes& times) {
+  /// S is measured on the CPU, whichever renderer draws. Returns the CPU's own times.
+  Json measure_by_cpu(const Rule& rule, Json& times) {
     const Method method{RendererKind::kCpu, Technique::kCells};
     const RenderSettings settings = settings_of(method, rule);
-    times.cpu_wrong_pixels = wrong_pixels(picture(settings), exact_);
+    const uint64_t wrong = wrong_pixels(picture(settings), exact_);
+    RenderStats cells;
     std::vector<double> subdivide, render;
     const Clock::time_point start = Clock::now();
     while (!settings_.repetitions.enough(subdivide.size(), ms_since(start))) {
       SceneRenderer renderer;
       renderer.load(scene_);
-      renderer.draw(views_[0], settings, times.cells);
-      subdivide.push_back(times.cells.subdivide_ms);
+      renderer.draw(views_[0], settings, cells);
+      subdivide.push_back(cells.subdivide_ms);
       if (!is_wanted(RendererKind::kCpu)) continue;
       RenderStats again;
       renderer.draw(views_[0], settings, again);
       render.push_back(again.render_ms);
     }
-    times.subdivide = summarise(std::move(subdivide));
-    if (!render.empty()) times.cpu_render = summarise(std::move(render));
+    times["leaves"] = cells.leaves;
+    times["leaves_dropped"] = cells.leaves_dropped;
+    times["leaves_given_up"] = cells.leaves_given_up;
+    times["S"] = summarise(std::move(subdivide));
+    if (render.empty()) return {};
+    return {{"T_R", summarise(std::move(render))}, {"wrong_pixels", wrong}};
   }
 
-  void measure_by_gl(const Rule& rule, RuleTimes& times) {
+  void measure_by_gl(const Rule& rule, Json& times) {
     const Method method{RendererKind::kGl, Technique::kCells};
     const std::optional<Image> image = try_picture(method, rule);
     if (!image) return;
-    GlTimes gl;
-    gl.wrong_pixels = wrong_pixels(*image, exact_);
-    if (!is_right(method, rule, *image, gl.wrong_pixels)) return;
+    const uint64_t wrong = wrong_pixels(*image, exact_);
+    if (!is_right(method, rule, *image, wrong)) return;
     RenderSettings settings = settings_of(method, rule);
     settings.all_stats = true;
     SceneRenderer renderer;
@@ -226,28 +254,26 @@ class Measurement {
       render.push_back(stats.paper_tr_ms);
       both.push_back(stats.paper_sr_ms);
     }
-    gl.pass = summarise(std::move(pass));
-    gl.render = summarise(std::move(render));
-    gl.render_while_subdividing = summarise(std::move(both));
-    gl.renderer = stats.renderer;
-    gl.draw_calls = stats.draw_calls;
-    gl.cells_drawn = stats.cells_drawn;
-    times.gl = std::move(gl);
+    times["gl"] = {{"T_S", summarise(std::move(pass))}, {"T_R", summarise(std::move(render))},
+                   {"S_R", summarise(std::move(both))}, {"draw_calls", stats.draw_calls},
+                   {"cells_drawn", stats.cells_drawn},  {"wrong_pixels", wrong}};
   }
 
   const ScenePointer& scene_;
   const std::span<const View> views_;
   const Settings& settings_;
   const Progress& progress_;
-  Result result_;
-  Image exact_;
+  Image exact_;  // by the CPU's tiles
+  uint64_t hits_ = 0;
   bool has_gl_ = true;
+  Json frames_ = Json::array(), rules_ = Json::array();
+  Json left_out_ = Json::array(), wrong_ = Json::array();
 };
 
 }  // namespace
 
-Result measure(const ScenePointer& scene, std::span<const View> views, const Settings& settings,
-               const Progress& progress) {
+Json measure(const ScenePointer& scene, std::span<const View> views, const Settings& settings,
+             const Progress& progress) {
   return Measurement(scene, views, settings, progress).run();
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +13,10 @@
 #include "csgcore/scene.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/render.hpp"
-#include "samples.hpp"
 
 namespace bench {
+
+using Json = nlohmann::ordered_json;
 
 /// The rule that makes a cell a leaf: it has at most K primitives, or is smaller than the
 /// threshold. The default is scadray's own.
@@ -26,9 +27,19 @@ struct Rule {
 /// The paper's rule (§2.2), with the threshold of §4.1.
 constexpr Rule kPaperRule{2, 1};
 
+/// How often work is repeated: at least `least` times, and then until it has taken `long_enough_ms`
+/// in all or was done `most` times.
+struct Repetitions {
+  size_t least = 5;
+  size_t most = 50;
+  double long_enough_ms = 2'000;
+  bool enough(size_t count, double total_ms) const {
+    return count >= least && (count >= most || total_ms >= long_enough_ms);
+  }
+};
+
 struct Settings {
   std::vector<Rule> rules{Rule{}, kPaperRule};  // at least one; frames by cells use the first
-  bool frames = true;                           // false: measure the rules' times alone
   /// kAuto: the CPU, and OpenGL if there is any, in software too. kGl: measure() throws without
   /// OpenGL.
   frontend::RendererKind renderer = frontend::RendererKind::kAuto;
@@ -36,58 +47,12 @@ struct Settings {
   Repetitions repetitions;
 };
 
-/// Frames of one renderer by one technique. Times in ms.
-struct FrameTimes {
-  std::string renderer;   // "cpu", or "gl: " and GL_RENDERER
-  std::string technique;  // "tiles" or "cells"
-  /// The time from a scene in memory, with nothing prepared, to its picture; without `context`.
-  Summary first;
-  std::optional<Summary> subdivide;  // the part of `first` that subdivides; by cells only
-  /// `context`: starting OpenGL, before `first`. `shaders`: how much longer a first frame takes to
-  /// render than the same frame drawn again, since shaders are compiled or loaded from the driver's
-  /// cache.
-  std::optional<Summary> context, shaders;
-  Summary steady;             // a frame of a turning camera
-  uint64_t wrong_pixels = 0;  // compared with the CPU's picture by tiles
-};
-
-/// The paper's times by OpenGL, in ms.
-struct GlTimes {
-  std::string renderer;              // as in FrameTimes
-  Summary pass;                      // T_S
-  Summary render;                    // T_R
-  Summary render_while_subdividing;  // S_R
-  uint64_t draw_calls = 0;
-  uint64_t cells_drawn = 0;
-  uint64_t wrong_pixels = 0;  // including those that the threshold causes
-};
-
-struct RuleTimes {
-  Rule rule;
-  frontend::RenderStats cells;        // statistics of the subdivision
-  Summary subdivide;                  // S
-  std::optional<Summary> cpu_render;  // T_R by the CPU, which has no parameters to pass
-  uint64_t cpu_wrong_pixels = 0;
-  std::optional<GlTimes> gl;
-};
-
-struct Result {
-  uint64_t primitives = 0;  // of the model, as are the next two
-  uint64_t pixels = 0;
-  uint64_t hits = 0;  // pixels that show the model
-  std::vector<FrameTimes> frames;
-  std::vector<RuleTimes> rules;
-  std::vector<std::string> left_out;  // what was not measured, and why
-  /// Pictures that are wrong; their times are left out.
-  std::vector<std::string> wrong;
-};
-
 using ScenePointer = std::shared_ptr<const csgcore::Scene>;
 using Progress = std::function<void(const std::string& stage)>;
 
-/// `views`, at least one, are those of a turning camera. An empty model is not measured. Throws
-/// frontend::Error.
-Result measure(const ScenePointer& scene, std::span<const csgcore::View> views,
-               const Settings& settings, const Progress& progress);
+/// Returns the JSON of a file, without its name (README.md lists the keys). `views`, at least one,
+/// are those of a turning camera. An empty model is not measured. Throws frontend::Error.
+Json measure(const ScenePointer& scene, std::span<const csgcore::View> views,
+             const Settings& settings, const Progress& progress);
 
 }  // namespace bench
