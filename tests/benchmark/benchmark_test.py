@@ -36,8 +36,8 @@ class Benchmark(unittest.TestCase):
         self.keeper.cleanup()
 
     def measure(self, *options):
-        return subprocess.run([sys.executable, "-B", HERE / "measure.py", "--quick", "--output", self.results, "--folder",
-                               self.folder / "work", "--scadray", SCADRAY, "--judge", JUDGE, *options],
+        return subprocess.run([sys.executable, "-B", HERE / "measure.py", "--quick", "--output", self.results,
+                               "--folder", self.folder / "work", "--scadray", SCADRAY, "--judge", JUDGE, *options],
                               capture_output=True, text=True)
 
     def program(self, body):
@@ -115,12 +115,12 @@ class WrongPrograms(Benchmark):
         self.expect_no_times("echo out of paint; exit 1", "out of paint")
 
     def test_one_that_draws_nothing(self):
-        self.expect_no_times(f"case \"$*\" in *.png*) away=--camera=1e6,1e6,0,0,0,0,1 ;; esac\nexec '{SCADRAY}' $away \"$@\"",
-                             "an empty picture")
+        self.expect_no_times(f"""case "$*" in *.png*) away=--camera=1e6,1e6,0,0,0,0,1 ;; esac
+            exec '{SCADRAY}' $away "$@\"""", "an empty picture")
 
     def test_one_whose_pictures_depend_on_the_technique(self):
-        self.expect_no_times(f"case \"$*\" in *cells*) turn=--camera=0,0,0,9,0,0,99 ;; esac\nexec '{SCADRAY}' $turn \"$@\"",
-                             "another picture with --technique=cells")
+        self.expect_no_times(f"""case "$*" in *cells*) turn=--camera=0,0,0,9,0,0,99 ;; esac
+            exec '{SCADRAY}' $turn "$@\"""", "another picture with --technique=cells")
 
     def test_a_judge_that_finds_wrong_pixels(self):
         judge = self.program('echo \'{"double": {"wrong": 7}}\'')
@@ -182,8 +182,9 @@ class Results(Benchmark):
             self.assertEqual("paper" in json.loads(self.results.read_text())["sections"], kept)
 
     def test_numbers(self):
-        for value, text in ((0, "0"), (0.04123, "0.0412"), (8.129, "8.13"), (9.996, "10.0"), (345.4, "345"), (4.32e6, "4,320,000"),
-                            (2.1e-13, "2.1e-13"), (3e-5, "3e-5"), (None, "–"), (-1234.5, "-1,230")):
+        for value, text in ((0, "0"), (0.04123, "0.0412"), (8.129, "8.13"), (9.996, "10.0"), (345.4, "345"),
+                            (4.32e6, "4,320,000"), (2.1e-13, "2.1e-13"), (3e-5, "3e-5"), (None, "–"),
+                            (-1234.5, "-1,230")):
             self.assertEqual(report.number(value), text)
         self.assertEqual([report.size(value) for value in (12, 999_600, 1.72e9)], ["12 bytes", "1.00 MB", "1.72 GB"])
 

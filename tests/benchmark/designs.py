@@ -167,6 +167,7 @@ def unseen_scenes(n):
     turn, far, height = uniform(0, 2 * math.pi), 9 * numpy.sqrt(uniform(0, 1)), uniform(-9, 9)
     in_core = numpy.stack([far * numpy.cos(turn), far * numpy.sin(turn), height], axis=-1)
     before = on_screen(uniform(-ASPECT, ASPECT), uniform(-1, 1), uniform(0.5, 0.8))
+    behind = on_screen(uniform(-ASPECT, ASPECT), uniform(-1, 1), uniform(1.1, 1.5))
     left, right = (on_screen(numpy.array([x]), 0, 0.6) for x in (-0.3, 0.7))
     in_left = left + in_core * 0.3
     corner = [(2 * (numpy.floor(uniform(1, size - 1)) + uniform(-0.2, 0.2)) - size) / 480 for size in (640, 480)]
@@ -175,7 +176,7 @@ def unseen_scenes(n):
     alone, wall = body(random()), body(random(), wall=True)
     yield "off the screen", alone, alone + balls(off_screen, radii)
     yield "behind a body", alone, alone + balls(in_shadow, radii)
-    yield "behind a wall", wall, wall + balls(on_screen(uniform(-ASPECT, ASPECT), uniform(-1, 1), uniform(1.1, 1.5)), radii)
+    yield "behind a wall", wall, wall + balls(behind, radii)
     yield "voids in a body", alone, body(random(), balls(in_core, radii))
     yield "within a body", alone, alone + balls(in_core, radii)
     yield "subtracted from nothing", alone, body(random(), balls(before, radii))

@@ -177,8 +177,8 @@ def openscad_candidates(subject, display):
                 facets, drawn = subject.faceted(fragments), read_png(picture)
                 other = differing(drawn, facets.rendered if rendered else facets.plain)
                 if other > MOST_DIFFERING * SIZE[0] * SIZE[1]:
-                    raise WrongAnswer(f"{subject.name}: OpenSCAD's picture differs from that of its facets, {fragments} "
-                                      f"a circle, in {other} pixels")
+                    raise WrongAnswer(f"{subject.name}: OpenSCAD's picture differs from that of its facets, "
+                                      f"{fragments} a circle, in {other} pixels")
                 return subject.errors(facets.hits, drawn, rendered=rendered)
             yield Candidate("OpenSCAD render" if rendered else "OpenSCAD preview", f"$fn={fragments}",
                             ["openscad", *(["--render"] if rendered else []), "-q", "-o", picture,

@@ -23,7 +23,7 @@ import math
 import os
 
 from designs import CAMERA, FAMILIES, MOST, design, unseen_scenes, written
-from measuring import (SIZE, LeftOut, WrongAnswer, bench, differing, in_turn, picture_command, read_png,
+from measuring import (LeftOut, WrongAnswer, bench, differing, in_turn, picture_command, read_png,
                        require_same_by_techniques, run, run_right, say, stats_of, summary)
 
 STAGES = ["export", "read", "parse", "import", "prepare", "render", "encode"]

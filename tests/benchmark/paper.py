@@ -63,7 +63,8 @@ def measure_paper(settings):
         if settings.quick and name != "r9":
             continue
         row = measured(name)
-        row["paper"] = {machine: dict(zip(("S", "T_S", "T_R", "S_R"), times)) for machine, times in (("C1", c1), ("C2", c2))}
+        row["paper"] = {machine: dict(zip(("S", "T_S", "T_R", "S_R"), times))
+                        for machine, times in (("C1", c1), ("C2", c2))}
         row["paper"].update({"draw_calls": draw_calls} if draw_calls else {})
         result["table"].append(row)
     points = [{**measured(f"cc{cones}"), "cones": cones} for cones in settings.some([100, 200, 500, 1000], 2)]

@@ -254,8 +254,9 @@ def write_growth(section, folder):
     text += figure(folder, "growth_parts", "Stages and memory over n", [parts, memory])
     if section["unseen"]:
         ratios = [scene["ratio"] for scene in section["unseen"]]
-        text += "\n## What cannot be seen\n" + paragraph(f"""{number(section['unseen_count'])} primitives that do not change
-            the picture join 1,000 that are seen: rendering takes {number(min(ratios))} to {number(max(ratios))} times as long.""")
+        text += "\n## What cannot be seen\n" + paragraph(f"""{number(section['unseen_count'])} primitives that do not
+            change the picture join 1,000 that are seen: rendering takes {number(min(ratios))} to
+            {number(max(ratios))} times as long.""")
         text += table(["what joins", "ms alone", "ms with it", "ratio"],
                       [[scene["scene"], spread(scene["alone_ms"]), spread(scene["grown_ms"]), number(scene["ratio"])]
                        for scene in section["unseen"]])
@@ -265,13 +266,14 @@ def write_growth(section, folder):
 def write_frames(section, folder):
     text = "\n## Pixels and threads\n" + paragraph("""Frames from memory, on the CPU (`scadray bench`): *first* with
         nothing prepared, *steady* while a camera turns.""")
-    kinds = [(technique, kind) for technique in ("tiles", "cells") for kind in ("first", "steady")]
-    panels = [Panel(f"By {technique}, steady", "megapixels", "time of a frame in ms") for technique in ("tiles", "cells")]
+    techniques = ("tiles", "cells")
+    kinds = [(technique, kind) for technique in techniques for kind in ("first", "steady")]
+    panels = [Panel(f"By {technique}, steady", "megapixels", "time of a frame in ms") for technique in techniques]
     rows = []
     for design in section["pixels"]:
         for row in design["rows"]:
             megapixels = row["width_px"] * row["height_px"] / 1e6
-            for panel, technique in zip(panels, ("tiles", "cells")):
+            for panel, technique in zip(panels, techniques):
                 panel.add(title(design["design"]), megapixels, row[technique]["steady"])
             rows.append([title(design["design"]), f"{row['width_px']}×{row['height_px']}", 2,
                          *(spread(row[technique][kind]) for technique, kind in kinds)])
@@ -280,7 +282,8 @@ def write_frames(section, folder):
             rows.append([title(design["design"]), f"{design['width_px']}×{design['height_px']}", row["threads"],
                          *(spread(row[technique][kind]) for technique, kind in kinds)])
     text += figure(folder, "frames", "Time of a frame over its pixels", panels)
-    return text + table(["design", "picture", "threads", *(f"{technique}, {kind}, ms" for technique, kind in kinds)], rows)
+    head = ["design", "picture", "threads", *(f"{technique}, {kind}, ms" for technique, kind in kinds)]
+    return text + table(head, rows)
 
 
 def write_stability(section, folder):
@@ -391,7 +394,8 @@ def write_paper(section, folder):
     for key, parameter, axis in (("threshold", "threshold_px", "threshold in pixels"),
                                  ("leaf_primitives", "leaf_primitives", "K, primitives in a cell")):
         sweep = section[key]
-        times, wrong = Panel(title(sweep["design"]) + ": times", axis, "ms"), Panel("Wrong pixels", axis, "share", zero=1e-6)
+        times = Panel(title(sweep["design"]) + ": times", axis, "ms")
+        wrong = Panel("Wrong pixels", axis, "share", zero=1e-6)
         for rule in sweep["rules"]:
             times.add("S", rule[parameter], rule["S"])
             for renderer, name in RENDERERS.items():
@@ -400,7 +404,8 @@ def write_paper(section, folder):
                     wrong.add(f"T_R, {name}", rule[parameter], rule[renderer]["wrong_pixels"] / sweep["hits"])
         text += figure(folder, f"paper_{key}", f"Times and wrong pixels over the {axis}", [times, wrong])
     panels = []
-    for key, parameter, axis in (("area", "hits", "pixels that show it"), ("depth", "copies", "copies behind each other")):
+    for key, parameter, axis in (("area", "hits", "pixels that show it"),
+                                 ("depth", "copies", "copies behind each other")):
         panels.append(Panel(f"{title(section[key]['design'])}: {key}", axis, "T_R in ms", log_x=False, log_y=False))
         for point in section[key]["points"]:
             for renderer, name in RENDERERS.items():
@@ -418,8 +423,8 @@ CHAPTERS = {"error": write_error, "growth": write_growth, "frames": write_frames
 def machine_text(machine):
     versions = ", ".join(f"{name} {version}" for name, version in machine["versions"].items())
     return paragraph(f"""Measured {machine['date'][:10]} at commit {machine['commit']} on {machine['cores']} cores of:
-        {machine['processor']} ({machine['instruction_set']}), {size(machine['memory_bytes'])} of memory, {machine['system']}, {machine['compiler']};
-        {versions}.""")
+        {machine['processor']} ({machine['instruction_set']}), {size(machine['memory_bytes'])} of memory,
+        {machine['system']}, {machine['compiler']}; {versions}.""")
 
 
 def report_text(results, folder):
