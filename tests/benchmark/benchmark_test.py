@@ -131,7 +131,7 @@ class WrongPrograms(Benchmark):
 class SlowSearch(Benchmark):
     def test_what_is_found_is_drawn(self):
         found = self.folder / "found"
-        search = [HERE / "slow_search", found, "--program", SCADRAY, "--designs", "90", "--seconds", "100"]
+        search = [HERE / "slow_search", found, "--program", SCADRAY, "--designs", "90", "--seconds", "1000"]
         self.assertEqual(run(search).status, 0)
         table = (found / "found.txt").read_text().splitlines()
         designs = list(found.glob("*.csg"))
