@@ -107,27 +107,21 @@ FAMILIES = {
 MOST = {"deep": 10_000, "letters": 100_000, "hulls": 100_000, "equal": 10_000, "flush": 10_000, "pockets": 100_000}
 
 
-# --- 1,000 primitives that are seen, and `unseen` more that the picture does not show ---
+# --- 1,000 primitives that are seen, and more that the picture does not show ---
 
-CAMERA = [0, 0, 0, 55, 0, 25, 90]
+# From above, so that turning the camera about z, as `scadray bench` does, turns the picture about its middle.
+CAMERA = [0, 0, 0, 0, 0, 0, 90]
 TAN = math.tan(math.radians(22.5 / 2))  # half of the picture's height, at a distance of 1
 ASPECT = 4 / 3
+CORNER = math.hypot(1, ASPECT)  # from the picture's middle, in half heights
 BODY = 10  # the radius, and half of the height, of a cylinder
-
-
-def rotation():
-    x, z = math.radians(CAMERA[3]), math.radians(CAMERA[5])
-    about_x = numpy.array([[1, 0, 0], [0, math.cos(x), -math.sin(x)], [0, math.sin(x), math.cos(x)]])
-    about_z = numpy.array([[math.cos(z), -math.sin(z), 0], [math.sin(z), math.cos(z), 0], [0, 0, 1]])
-    return about_z @ about_x  # its columns: right, up and backwards
 
 
 def on_screen(across, upwards, depth):
     """Places at `across` and `upwards` half heights of the picture from its middle; `depth` in distances of the
     body's middle."""
     depth = CAMERA[6] * depth
-    parts = numpy.broadcast_arrays(TAN * depth * across, TAN * depth * upwards, CAMERA[6] - depth)
-    return numpy.stack(parts, axis=-1) @ rotation().T
+    return numpy.stack(numpy.broadcast_arrays(TAN * depth * across, TAN * depth * upwards, CAMERA[6] - depth), axis=-1)
 
 
 def balls(places, radii):
@@ -136,50 +130,38 @@ def balls(places, radii):
                    for (x, y, z), r in zip(places, radii))
 
 
-def body(random, inside="", wall=False):
-    """A cylinder with 999 holes that are seen, and more of what is subtracted."""
-    if wall:
-        m = numpy.column_stack([rotation(), [0, 0, 0]])
-        rows = ",".join("[" + ",".join(f"{x:.17g}" for x in row) + "]" for row in m)
-        solid = f"multmatrix([{rows},[0,0,0,1]]) cylinder($fn=0,h=2,r1=40,r2=40,center=true);\n"
-        holes = on_screen(random.uniform(-ASPECT, ASPECT, 999), random.uniform(-1, 1, 999), 1 - 1 / CAMERA[6])
-        return f"difference() {{\n{solid}{balls(holes, 0.3)}{inside}}}\n"
-    turn, height = random.uniform(-1.5, 1.5, 999) - math.radians(90 - CAMERA[5]), random.uniform(-BODY, BODY, 999)
-    holes = numpy.stack([BODY * numpy.cos(turn), BODY * numpy.sin(turn), height], axis=-1)
-    solid = f"cylinder($fn=0,h={2 * BODY},r1={BODY},r2={BODY},center=true);\n"
-    return f"difference() {{\n{solid}{balls(holes, 0.447)}{inside}}}\n"
+def body(inside="", wall=False):
+    """A cylinder, or a plate that fills the picture, with 999 holes that are seen, and more of what is subtracted."""
+    random = numpy.random.default_rng(2)
+    turn, far = random.uniform(0, 2 * math.pi, 999), numpy.sqrt(random.uniform(0, 1, 999)) * (30 if wall else BODY)
+    top, radius = (1, 40) if wall else (BODY, BODY)
+    holes = numpy.stack([far * numpy.cos(turn), far * numpy.sin(turn), numpy.full(999, top)], axis=-1)
+    return (f"difference() {{\ncylinder($fn=0,h={2 * top},r1={radius},r2={radius},center=true);\n"
+            f"{balls(holes, 0.447)}{inside}}}\n")
 
 
 def unseen_scenes(n):
     """Yields each scene's name, the text of its file alone, and with n primitives that cannot be seen."""
-    def random():
-        return numpy.random.default_rng(1)
-    made = random()
+    made = numpy.random.default_rng(1)
 
     def uniform(low, high):
         return made.uniform(low, high, n)
-    radii = uniform(0.02, 0.12)
-    aside = uniform(1.4, 4) * made.choice([-1, 1], n)
-    beside = made.random(n) < 0.5
-    off_screen = on_screen(numpy.where(beside, ASPECT * aside, uniform(-4, 4)),
-                           numpy.where(beside, uniform(-4, 4), aside), uniform(0.2, 2))
-    in_shadow = on_screen(0, 0, uniform(1.3, 2)) + made.uniform(-4.5, 4.5, (n, 2)) @ rotation()[:, :2].T
-    turn, far, height = uniform(0, 2 * math.pi), 9 * numpy.sqrt(uniform(0, 1)), uniform(-9, 9)
-    in_core = numpy.stack([far * numpy.cos(turn), far * numpy.sin(turn), height], axis=-1)
-    before = on_screen(uniform(-ASPECT, ASPECT), uniform(-1, 1), uniform(0.5, 0.8))
+    radii, turn = uniform(0.02, 0.12), uniform(0, 2 * math.pi)
+    aside = uniform(1.1 * CORNER, 4)
+    off_screen = on_screen(aside * numpy.cos(turn), aside * numpy.sin(turn), uniform(0.2, 2))
+    in_shadow = on_screen(0, 0, uniform(1.3, 2)) + numpy.column_stack([made.uniform(-6, 6, (n, 2)), numpy.zeros(n)])
     behind = on_screen(uniform(-ASPECT, ASPECT), uniform(-1, 1), uniform(1.1, 1.5))
+    far = 9 * numpy.sqrt(uniform(0, 1))
+    in_core = numpy.stack([far * numpy.cos(turn), far * numpy.sin(turn), uniform(-9, 9)], axis=-1)
+    before = on_screen(uniform(-ASPECT, ASPECT), uniform(-1, 1), uniform(0.5, 0.8))
     left, right = (on_screen(numpy.array([x]), 0, 0.6) for x in (-0.3, 0.7))
     in_left = left + in_core * 0.3
-    corner = [(2 * (numpy.floor(uniform(1, size - 1)) + uniform(-0.2, 0.2)) - size) / 480 for size in (640, 480)]
-    depth = uniform(0.6, 0.8)
-    between = on_screen(*corner, depth)
-    alone, wall = body(random()), body(random(), wall=True)
+    alone, wall = body(), body(wall=True)
     yield "off the screen", alone, alone + balls(off_screen, radii)
     yield "behind a body", alone, alone + balls(in_shadow, radii)
     yield "behind a wall", wall, wall + balls(behind, radii)
-    yield "voids in a body", alone, body(random(), balls(in_core, radii))
+    yield "voids in a body", alone, body(balls(in_core, radii))
     yield "within a body", alone, alone + balls(in_core, radii)
-    yield "subtracted from nothing", alone, body(random(), balls(before, radii))
+    yield "subtracted from nothing", alone, body(balls(before, radii))
     yield ("intersected with what is beside", alone,
            alone + f"intersection() {{ union() {{\n{balls(in_left, radii)}}}\n{balls(right, 4)}}}\n")
-    yield "between samples", alone, alone + balls(between, 0.05 * depth * 2 * TAN * CAMERA[6] / 480)

@@ -3,10 +3,11 @@
 "growth": whole processes from a file to its PNG, from 10 of something on:
 {"start_ms": a process that draws nothing,
  "families": [{"name", "title", "counts", "rows": [{"n", "primitives", "file_bytes", "wall_ms", "cpu_ms",
-   "peak_bytes": null where it is less than the measuring program's, "stages_ms": {STAGE: summary}}],
+   "peak_bytes": null where it is less than the measuring program's, "stages_ms": {STAGE: summary}: by --stats, which
+   counts while it renders}],
    "exponents": {"wall", STAGE: of the growth to the last row from the one before}}],
- "unseen_count", "unseen": [{"scene", "alone_ms": rendering 1,000 primitives that are seen, "grown_ms": and that
-   many that are not, "ratio"}],
+ "unseen_count", "unseen": [{"scene", "alone_ms": a frame by tiles of 1,000 primitives that are seen while the camera
+   turns, "grown_ms": with that many that are not, "ratio"}],
  "left_out"}
 "frames", from memory, by the CPU:
 {"pixels": [{"design", "rows": [{"width_px", "height_px", FRAMES}]}],
@@ -93,8 +94,7 @@ def unseen(name, alone, grown, settings):
     # The larger box of the grown design moves the rays' origins, and so their last bits at edges.
     if differing(*pictures) > 10:
         raise WrongAnswer(f"{name}: parts that cannot be seen change {differing(*pictures)} pixels")
-    works = [lambda path=path: stats_of(settings, path, camera)["times_ms"]["render"] for path in paths]
-    alone_ms, grown_ms = in_turn(works, settings, 5, 20, 500)
+    alone_ms, grown_ms = (frames_of(path, settings, camera)["tiles"]["steady"] for path in paths)
     return {"scene": name, "alone_ms": alone_ms, "grown_ms": grown_ms, "ratio": grown_ms["median"] / alone_ms["median"]}
 
 

@@ -18,7 +18,7 @@ import math
 
 import numpy
 
-from designs import cut_cylinder, design, rotation, written
+from designs import cut_cylinder, design, written
 from measuring import LeftOut, WrongAnswer, bench, say
 
 # The paper's times in ms at 640x480 with a threshold of 1 pixel, on its two machines: C1, a Pentium-M of 1.4 GHz with
@@ -88,9 +88,12 @@ def measure_paper(settings):
     result["area"] = {"design": name, "points": points}
     # The design is repeated behind itself, without perspective, so that the same pixels are covered.
     points, one = [], cut_cylinder(settings, "cs", 100).read_text()
+    down, turn = math.radians(55), math.radians(25)
+    x, y, z = 40 * math.sin(down) * math.sin(turn), -40 * math.sin(down) * math.cos(turn), 40 * math.cos(down)
     for copies in settings.some([1, 2, 4, 8, 16], 2):
-        text = "".join("multmatrix([[1,0,0,%r],[0,1,0,%r],[0,0,1,%r],[0,0,0,1]]) {\n%s}\n" %
-                       (*(-40.0 * i * rotation()[:, 2]), one) for i in range(copies))
+        # By 40 along the view axis of the camera below.
+        text = "".join(f"multmatrix([[1,0,0,{-x * i}],[0,1,0,{-y * i}],[0,0,1,{-z * i}],[0,0,0,1]]) {{\n{one}}}\n"
+                       for i in range(copies))
         path = written(settings, "copies.csg", text)
         row = measured("cs100", "--projection=o", "--camera=0,0,0,55,0,25,77", "--leaf-primitives=8", path=path)
         points.append({"hits": row["hits"], "copies": copies, "rule": row["rules"][0]})

@@ -228,7 +228,7 @@ def write_growth(section, folder):
     text = "\n## How it grows\n" + paragraph(f"""Whole processes from a file to its PNG at 640×480, by the CPU. A
         process that draws nothing (`scadray --version`) takes {spread(section['start_ms'])} ms. The table has the
         largest design of each kind, in ms. Brackets say how the time grew from the size before, as an exponent of n (n
-        log n has 1.06 to 1.2).""")
+        log n has 1.06 to 1.2). Stages are by `--stats`, which counts while it renders.""")
     rows = []
     walls = Panel("From file to PNG", "n", "time in ms")
     renders = Panel("of it rendering", "n", "time in ms")
@@ -255,7 +255,7 @@ def write_growth(section, folder):
     if section["unseen"]:
         ratios = [scene["ratio"] for scene in section["unseen"]]
         text += "\n## What cannot be seen\n" + paragraph(f"""{number(section['unseen_count'])} primitives that do not
-            change the picture join 1,000 that are seen: rendering takes {number(min(ratios))} to
+            change the picture join 1,000 that are seen: a frame by tiles takes {number(min(ratios))} to
             {number(max(ratios))} times as long.""")
         text += table(["what joins", "ms alone", "ms with it", "ratio"],
                       [[scene["scene"], spread(scene["alone_ms"]), spread(scene["grown_ms"]), number(scene["ratio"])]
