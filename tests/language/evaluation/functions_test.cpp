@@ -42,6 +42,46 @@ echo(f([1, 2], 1), f([[3, 4]], 0), f([5 : 6], 2), f("ab", 1), f(undef, 0), f([1,
 )");
 }
 
+TEST(Functions, VectorsThatGrowInPlaceLeaveOthersAlone) {
+  const Evaluated result = evaluated(R"(
+function f(v, n) = n == 0 ? v : f(concat(v, [len(v)]), n - 1);
+start = [7];
+echo(f(start, 3), start, f(start, 1));
+function g(v, all, n) = n == 0 ? all : g(concat(v, [n]), concat(all, [v]), n - 1);
+echo(g([], [], 3));
+function h(v, w, n) = n == 0 ? [v, w] : h(concat(v, w), v, n - 1);
+echo(h([1], [2], 3));
+function k(v, n) = n == 0 ? v : k(concat(v, n > 1 ? [v] : []), n - 1);
+echo(k([1], 3));
+function l(n, v) = n == 0 ? v : let(old = v) l(n - 1, concat(old, [v[0]]));
+echo(l(2, [5, 6]));
+function m(v, n) = n == 0 ? v : m(n == 2 ? concat(v, n) : len(v), n - 1);
+echo(m([], 2), m(v = [1], n = 1));
+echo([for (v = [], i = 0; i < 4; v = concat(v, [i]), i = i + 1) v]);
+echo([for (v = [0], w = []; len(v) < 4; w = concat(v, [9]), v = concat(v, [len(w)])) [v, w]]);
+)");
+  EXPECT_EQ(result.messages, R"(ECHO: [7, 1, 2, 3], [7], [7, 1]
+ECHO: [[], [3], [3, 2]]
+ECHO: [[1, 2, 1, 1, 2], [1, 2, 1]]
+ECHO: [1, [1], [1, [1]]]
+ECHO: [5, 6, 5, 5]
+ECHO: 1, 1
+ECHO: [[], [0], [0, 1], [0, 1, 2]]
+ECHO: [[[0], []], [[0, 2], [0, 9]], [[0, 2, 3], [0, 2, 9]]]
+)");
+}
+
+// Copies of such vectors would take minutes.
+TEST(Functions, VectorsGrowInPlace) {
+  EXPECT_EQ(evaluated("function f(v, n) = n == 0 ? len(v) : f(concat(v, [n]), n - 1);\n"
+                      "function g(v, n) = n == 0 ? len(v) : g(concat(v, [len(v)]), n - 1);\n"
+                      "echo(f([], 400000), g([], 400000));\n"
+                      "echo(len([for (v = [], i = 0; i < 400000; v = concat(v, [i]), i = i + 1)\n"
+                      "  if (i == 399999) each v]));\n")
+                .messages,
+            "ECHO: 400000, 400000\nECHO: 399999\n");
+}
+
 // OpenSCAD 2021.01 cannot parse these; the texts are those of OpenSCAD 2025.07.18.
 TEST(Functions, OperatorsOfBits) {
   const Evaluated result = evaluated(R"(echo(12&5, 12|5, 2<<3, 16>>2, ~5);

@@ -1,6 +1,8 @@
 // Compiles one Code: the body of a function or module, a block, a top level.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +11,11 @@
 #include "code/compiler.hpp"
 
 namespace language {
+
+/// Instructions of a Code, from one position to before another.
+struct CodeRange {
+  uint32_t begin, end;
+};
 
 /// The `$` names that hide those of a block, which are older although they are assigned later.
 struct Hiding {
@@ -87,6 +94,13 @@ class CodeCompiler {
   void tail(const Expression& expression);  // returns its value from the function
   void tail_call(const CallExpression& call);
   void tail_defaults(const ArgumentPlan& plan, std::vector<uint32_t>& slots, Place place);
+  /// Returns the variable that such a value reads first, if it is a call of a builtin function:
+  /// after give_up(), a concat() finds that nothing else refers to its vector, and appends in
+  /// place.
+  std::optional<uint32_t> local_of_call(CodeRange value) const;
+  bool is_read(uint32_t slot, CodeRange range) const;
+  /// Lets the call that ends the code of a value give up a slot that is not read after it.
+  void give_up(uint32_t slot, CodeRange value);
 
   // comprehensions.cpp
   void element(const Expression& element, uint32_t vector);  // appends to the vector in a slot

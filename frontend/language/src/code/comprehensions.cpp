@@ -159,7 +159,9 @@ void CodeCompiler::declare_for_c(const ForCExpression& loop, ScopeLayout& scope)
 void CodeCompiler::for_c_assignments(std::span<const Argument> arguments, ScopeLayout& scope) {
   std::vector<Name> done;
   for (const Argument& argument : arguments) {
+    const uint32_t begin = out_.here();
     body_or_undef(argument.value, argument.place);
+    const CodeRange value{begin, out_.here()};
     if (argument.name == kNoName) {
       out_.emit(Op::kUnnamedLet, argument.place, -1);
     } else if (std::find(done.begin(), done.end(), argument.name) != done.end()) {
@@ -168,6 +170,9 @@ void CodeCompiler::for_c_assignments(std::span<const Argument> arguments, ScopeL
       const ScopeVariable* variable = scope.find(argument.name);
       const bool was_set = variable && variable->is_set;
       store(argument.name, argument.place);
+      const Instruction& stored = out_.at(out_.here() - 1);
+      const std::optional<uint32_t> slot = local_of_call(value);
+      if (slot && stored.op == Op::kStoreLocal && stored.b == *slot) give_up(*slot, value);
       if (variable && variable->is_optional && !was_set) scope.find(argument.name)->is_set = false;
       done.push_back(argument.name);
     }

@@ -82,7 +82,8 @@ enum class Op : uint8_t {
   kEnterUnit,         // make the top level of unit b ready for a call
   kBeginCall,         // push the declared parameters of calls[b], with their defaults
   kCall,              // call the function of calls[b], whose parameters are on top
-  kCallBuiltin,       // call builtin function b with the a values on top
+  kCallBuiltin,       // call builtin function b with the a values on top; a flag gives up slot
+                      // flag - 1, which is read no more, before that
   kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it
   kKeepLazy,          // pop a value and add it to the arguments of lazy_calls[b]
   kWarnCount,         // say that builtin function b got a wrong number of arguments; push undef

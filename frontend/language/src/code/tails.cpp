@@ -1,9 +1,17 @@
 // The bodies of functions. A call in tail position of a function by its own name starts its frame
 // anew (LANGUAGE.md, "Scopes and calls").
+#include <algorithm>
+
 #include "code/code_compiler.hpp"
 #include "code/constants.hpp"
 
 namespace language {
+namespace {
+
+/// Slots from here on are not given up: Instruction::flag has 16 bits.
+constexpr uint32_t kMostGivenUp = 0xFFFF;
+
+}  // namespace
 
 void CodeCompiler::compile_function(FunctionEntry& function) {
   function_ = &function;
@@ -103,15 +111,22 @@ void CodeCompiler::tail_call(const CallExpression& call) {
     const ArgumentPlan plan = compiler_.plan(*function_, call.arguments, call.place);
     warn_of_arguments(plan, call.place, true);
     std::vector<uint32_t> slots;  // where the values on the stack belong
+    std::vector<CodeRange> values;
     tail_defaults(plan, slots, call.place);
     for (const ArgumentPlan::Step& step : plan.steps) {
       const Argument& argument = call.arguments[step.argument];
+      const uint32_t begin = out_.here();
       expression(*argument.value);
+      values.push_back({begin, out_.here()});
       if (step.target.is_dynamic) {
         out_.emit(Op::kBindDynamic, argument.place, -1, step.target.name);
       } else {
         slots.push_back(step.target.slot);
       }
+    }
+    for (const CodeRange& value : values) {
+      const std::optional<uint32_t> slot = local_of_call(value);
+      if (slot && !is_read(*slot, {value.end, out_.here()})) give_up(*slot, value);
     }
     for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
       out_.emit(Op::kStoreLocal, call.place, -1, *slot);
@@ -124,6 +139,26 @@ void CodeCompiler::tail_call(const CallExpression& call) {
   }
   expression(call);
   out_.emit(Op::kReturn, call.place, -1);
+}
+
+std::optional<uint32_t> CodeCompiler::local_of_call(CodeRange value) const {
+  const auto& code = out_.code().instructions;
+  if (value.end == value.begin || code[value.end - 1].op != Op::kCallBuiltin) return std::nullopt;
+  const Instruction& first = code[value.begin];
+  if (first.op != Op::kLocal || first.b >= kMostGivenUp) return std::nullopt;
+  return first.b;
+}
+
+bool CodeCompiler::is_read(uint32_t slot, CodeRange range) const {
+  const auto begin = out_.code().instructions.begin();
+  return std::any_of(begin + range.begin, begin + range.end, [slot](const Instruction& step) {
+    if (step.op == Op::kLocal || step.op == Op::kTryLocal) return step.b == slot;
+    return (step.op == Op::kIndexLocal || step.op == Op::kMemberLocal) && step.a == slot;
+  });
+}
+
+void CodeCompiler::give_up(uint32_t slot, CodeRange value) {
+  out_.at(value.end - 1).flag = static_cast<uint16_t>(slot + 1);
 }
 
 // Parameters that a tail call does not give. A default that is no constant is evaluated by the

@@ -277,6 +277,7 @@ bool Machine::execute(const Instruction& step) {
       call_function(frames_.back().code->calls[step.b]);
       break;
     case Op::kCallBuiltin:
+      if (step.flag != 0) stack_[base_ + step.flag - 1] = Value::undef();
       call_builtin(step.b, step.a);
       break;
     case Op::kNextLazy:
