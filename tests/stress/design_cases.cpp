@@ -13,7 +13,7 @@ namespace {
 Scene import_scad(const std::string& file) {
   const auto ignore_message = [](const std::string&) {};
   const frontend::FileText csg =
-      frontend::export_with_openscad(file, {}, false, ignore_message, [] {}).csg;
+      frontend::export_with_openscad(file, {}, ignore_message, [] {}).csg;
   return frontend::import_design(frontend::parse(csg.view(), file)).scene;
 }
 

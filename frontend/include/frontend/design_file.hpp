@@ -28,8 +28,8 @@ struct DesignText {
   std::shared_ptr<const language::Evaluation> evaluation{};  // in place of a text, if not null
   std::string name;                                          // for the parser's messages
   bool is_exported = false;        // it was made from a .scad, by scadray or openscad
-  std::vector<std::string> files;  // files it was read from, the design last; empty unless wanted
-                                   // and known
+  std::vector<std::string> files;  // files it was read from, as far as they are known, the design
+                                   // last
   double export_ms = 0;            // time that the evaluation of a .scad took
   double read_ms = 0;
 };
@@ -46,15 +46,8 @@ struct DesignFile {
   double export_ms = 0;              // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;
-  DesignText text{};  // that it was parsed from, without `files`; empty unless wanted
+  DesignText text{};  // that it was parsed from; empty unless wanted
 };
-
-/// Returns whether the path has the suffix of a .scad, which has to be evaluated.
-bool is_scad(const std::string& path);
-
-/// Returns whether a text that cannot be parsed may be a .scad's: that of any name but a .csg's.
-/// (Editors' plugins pass temporary files without a suffix.)
-bool may_be_scad(const std::string& path);
 
 /// Returns the design's text where it is not to be read from the path anew: a call of import() for
 /// a mesh or a drawing; what a path that can be read only once gives (is_read_once()); and the text
@@ -63,10 +56,6 @@ bool may_be_scad(const std::string& path);
 /// it if it is larger than any .scad. Throws Error for what is neither text, mesh nor drawing;
 /// Stopped (stop.hpp) once `stop` is requested.
 std::optional<FileText> text_in_memory(const std::string& path, const std::stop_token& stop = {});
-
-/// Returns whether a design is evaluated whatever its text is: a .scad, and what may be one if
-/// there are options, such as -D, that only an evaluation obeys.
-bool is_evaluated(const std::string& path, const DesignFileOptions& options);
 
 /// Returns the options with the folder of the files that the design names: its own; and with the
 /// fonts that it uses, if it is a .scad, which was exported.
@@ -83,8 +72,9 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 
 /// Reads and parses a design. `path` is a .csg; a .scad, which is evaluated; a mesh or drawing,
 /// which is shown as import() shows it; or "-", standard input. That, and a file of any other name,
-/// is a .csg if it parses as one, else a .scad. Throws Error, also if `files` are wanted and
-/// openscad does not name them, and if memory runs out.
+/// is a .scad if there are options, such as -D, that only an evaluation obeys, or if it cannot be
+/// parsed as a .csg. Throws Error, also if `files` are wanted and openscad does not name them, and
+/// if memory runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
 /// Returns the tree of what was read. Throws what parse() throws (parser.hpp).
@@ -97,17 +87,11 @@ SyntaxTree parse_design(const FileText& csg, const language::Evaluation* evaluat
 /// Error if memory runs out.
 ImportedDesign import_design(DesignFile& file);
 
-// The two steps of read_design(). Both throw Stopped (stop.hpp) once `stop` is requested.
-
-/// Exports a file whose name is a .scad's or that import() reads; reads any other. The result may
-/// be only a start of the text, if that start shows that the text cannot be parsed. `files` lacks
-/// what openscad does not name. Throws Error.
+/// The first step of read_design(): evaluates the design, or reads it if it is a .csg. The result
+/// may be only a start of the text, if that start shows that the text cannot be parsed. `files`
+/// lacks what openscad does not name. Throws Error, and Stopped (stop.hpp) once `stop` is
+/// requested.
 DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
                             const std::stop_token& stop = {});
-
-/// Exports a design whose `text` cannot be parsed, and replaces `text`. Precondition:
-/// may_be_scad(). Throws Error.
-void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
-                        const std::stop_token& stop = {});
 
 }  // namespace frontend

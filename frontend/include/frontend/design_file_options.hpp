@@ -30,6 +30,9 @@ struct DesignFileOptions {
   /// A syntax error in a used file ends the own evaluator's reading, too.
   bool needs_all_files = false;
   bool wants_text = false;  // DesignFile::text
+  /// Called with the absolute paths of the files that the own evaluator has read or looked for in
+  /// vain, also where the evaluation fails.
+  std::function<void(std::vector<std::string> paths)> watch{};
   /// Called with each message of the evaluation; an echoed string can give it several lines.
   DesignMessageSink message;
   /// Called with the name of the current stage; during a .scad's export, many times.

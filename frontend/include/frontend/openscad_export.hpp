@@ -14,7 +14,7 @@ namespace frontend {
 
 struct OpenScadExport {
   FileText csg;
-  std::vector<std::string> files;  // files the design reads, as openscad names them; if wanted
+  std::vector<std::string> files;  // files the design reads, as openscad names them
 };
 
 /// Runs openscad (the program that $OPENSCAD names, or else `openscad` on PATH) on a .scad file and
@@ -29,7 +29,7 @@ struct OpenScadExport {
 /// openscad and everything that it has started have ended when this function returns or throws;
 /// they also end if this program is killed.
 OpenScadExport export_with_openscad(const std::string& scad_path,
-                                    const std::vector<std::string>& arguments, bool wants_files,
+                                    const std::vector<std::string>& arguments,
                                     const DesignMessageSink& message,
                                     const std::function<void()>& waiting,
                                     const std::stop_token& stop = {},

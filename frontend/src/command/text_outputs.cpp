@@ -11,13 +11,13 @@
 #include "command/output_paths.hpp"
 #include "follow/evaluated_design.hpp"
 #include "frontend/design_file.hpp"
+#include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"
 #include "frontend/terminal.hpp"
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
-#include "lower/import_files.hpp"
 #include "process/child_process.hpp"
 #include "process/memory_file.hpp"
 #include "process/openscad_program.hpp"
@@ -71,7 +71,7 @@ class TextRun {
     std::optional<language::EvaluationOptions> known =
         evaluation_options(options_.openscad_arguments, options_.input);
     const bool wants_openscad = options_.evaluator == Evaluator::kOpenScad;
-    if (!known || (wants_openscad && !is_importable(options_.input))) {
+    if (!known || (wants_openscad && kind_of(options_.input) != DesignKind::kImported)) {
       return write_by_openscad(options_, output_, text_);
     }
     known->camera = camera_choice(options_);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <new>
@@ -15,7 +14,7 @@
 #include "base/elapsed.hpp"
 #include "csg/evaluated_tree.hpp"
 #include "follow/evaluated_design.hpp"
-#include "follow/included_files.hpp"
+#include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"
@@ -28,36 +27,13 @@ namespace frontend {
 
 namespace {
 
-/// `suffix` is in lower case.
-bool has_suffix(const std::string& path, std::string_view suffix) {
-  return path.size() >= suffix.size() &&
-         std::equal(suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
-                    [](char wanted, char c) {
-                      return wanted == std::tolower(static_cast<unsigned char>(c));
-                    });
-}
-
-/// Parses a text that may turn out to be a .scad's.
-SyntaxTree parse_either(const std::string& path, const DesignFileOptions& options,
-                        DesignText& text) {
-  try {
-    return parse_design(text);
-  } catch (const Error&) {
-    if (text.is_exported || !may_be_scad(path)) throw;
-  }
-  export_design_text(path, options, text);
-  options.progress("parsing");
-  return parse_design(text);
-}
-
 DesignFile read_and_parse(const std::string& path, const DesignFileOptions& options) {
   DesignText text = read_design_text(path, options);
   options.progress("parsing");
-  const double export_before_ms = text.export_ms;
   const Clock::time_point parse_start = Clock::now();
-  DesignFile design{.tree = parse_either(path, options, text)};
+  DesignFile design{.tree = parse_design(text)};
   design.name = input_name(path);
-  design.parse_ms = ms_since(parse_start) - (text.export_ms - export_before_ms);
+  design.parse_ms = ms_since(parse_start);
   if (text.is_exported && options.wants_files && text.files.empty()) {
     throw Error(path, {}, "openscad does not say which files it reads",
                 "leave out -d, or check $OPENSCAD");
@@ -65,7 +41,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   design.import = beside(path, text, options.import);
   design.nodes = design.tree.nodes.size();
   design.is_exported = text.is_exported;
-  design.files = std::move(text.files);
+  if (options.wants_files) design.files = std::move(text.files);
   design.export_ms = text.export_ms;
   design.read_ms = text.read_ms;
   design.file_bytes = text.csg.view().size();
@@ -80,8 +56,6 @@ std::string time_assignment(double time) {
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), time).ptr;
   return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
-
-constexpr std::string_view kCsg = ".csg";
 
 /// Returns the .scad that shows a mesh or a drawing.
 std::string import_of(const std::string& path) {
@@ -99,12 +73,13 @@ constexpr std::size_t kMostScadBytes = std::size_t{64} << 20;
 
 /// Reads the text of a .csg or a .scad. Throws Error for what can be neither.
 FileText read_text(const std::string& path, const std::stop_token& stop) {
+  const DesignKind kind = kind_of(path);
   const auto is_no_csg = [&](std::string_view start, const std::stop_token& stop_parsing) {
-    return is_scad(path) || is_beyond_repair(start, stop_parsing);
+    return kind == DesignKind::kScad || is_beyond_repair(start, stop_parsing);
   };
   FileText text = read_file(path, is_no_csg, stop, kMostScadBytes + 1);
-  if (!may_be_scad(path)) return text;  // its parser says what is wrong, and where
-  if (!is_scad(path) && text.view().find('\0') != std::string_view::npos) {
+  if (kind == DesignKind::kCsg) return text;  // its parser says what is wrong, and where
+  if (kind != DesignKind::kScad && text.view().find('\0') != std::string_view::npos) {
     throw Error(input_name(path), {}, "is no design",
                 std::string("give a .scad, a .csg, or what import() reads: ") + kImportable);
   }
@@ -112,6 +87,25 @@ FileText read_text(const std::string& path, const std::stop_token& stop) {
     throw Error(input_name(path), {}, "is larger than 64 MiB, and no .csg", "check the file");
   }
   return text;
+}
+
+/// Returns whether a design is a .csg, which is not evaluated. `text` is what text_in_memory()
+/// gives.
+bool is_csg(const std::string& path, const DesignFileOptions& options,
+            const std::optional<FileText>& text, const std::stop_token& stop) {
+  const DesignKind kind = kind_of(path);
+  if (kind != DesignKind::kEither) return kind == DesignKind::kCsg;
+  // --hardwarnings means something to the reader of a .csg, too.
+  const bool has_options =
+      std::any_of(options.openscad_arguments.begin(), options.openscad_arguments.end(),
+                  [](const std::string& word) { return word != "--hardwarnings"; });
+  if (has_options || !text) return !has_options;
+  try {
+    parse(text->view(), path, stop);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 constexpr const char* kSetName = "scadray";
@@ -149,40 +143,65 @@ auto within_memory(const std::string& path, Work work) {
   }
 }
 
+/// Evaluates the design.
+void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
+                        const std::stop_token& stop) {
+  text.is_exported = true;
+  const Clock::time_point start = Clock::now();
+  if (options.evaluator == Evaluator::kOwn || kind_of(path) == DesignKind::kImported) {
+    options.progress("evaluating");
+    text.evaluation = evaluate_design(path, text.scad, options, stop);
+    text.export_ms = ms_since(start);
+    if (text.evaluation) {
+      text.files = files_of(*text.evaluation, path);
+      return;
+    }
+  }
+  // Places in the exported text must not look like places in the .scad.
+  text.name = input_name(path) + " (its .csg)";
+  std::vector<std::string> arguments = options.openscad_arguments;
+  if (options.import.picture == PictureKind::kRendered) {
+    // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
+    arguments.insert(arguments.begin(), {"-D", "$preview=false"});
+  }
+  if (options.inputs.time) {
+    arguments.insert(arguments.end(), {"-D", time_assignment(*options.inputs.time)});
+  }
+  std::optional<MemoryFile> parameters;
+  if (options.inputs.parameters) {
+    parameters.emplace(parameter_file(*options.inputs.parameters));
+    replace_parameter_set(arguments, *parameters);
+  }
+  OpenScadExport result = export_with_openscad(
+      path, arguments, options.message, [&options] { options.progress("openscad"); }, stop,
+      is_read_once(path) ? text.scad : std::nullopt);
+  text.csg = std::move(result.csg);
+  text.files = std::move(result.files);
+  if (options.wants_files && is_read_once(path)) text.files.push_back(path);  // openscad reads "-"
+  text.export_ms = ms_since(start);
+}
+
 }  // namespace
-
-bool is_scad(const std::string& path) { return has_suffix(path, ".scad"); }
-
-bool may_be_scad(const std::string& path) { return !has_suffix(path, kCsg); }
 
 std::optional<FileText> text_in_memory(const std::string& path, const std::stop_token& stop) {
   std::error_code failed;
   if (path != "-" && !std::filesystem::exists(path, failed)) return std::nullopt;
-  if (is_importable(path)) {
+  const DesignKind kind = kind_of(path);
+  if (kind == DesignKind::kImported) {
     check_input(path);
     if (is_read_once(path)) throw Error(path, {}, "is no regular file", "check the file");
     return FileText(import_of(path));
   }
-  const bool is_told_by_name = is_scad(path) || has_suffix(path, kCsg);
-  if (is_told_by_name && !is_read_once(path)) return std::nullopt;
-  if (is_scad(path)) check_input(path);
+  if (kind != DesignKind::kEither && !is_read_once(path)) return std::nullopt;
+  if (kind == DesignKind::kScad) check_input(path);
   return read_text(path, stop);
-}
-
-bool is_evaluated(const std::string& path, const DesignFileOptions& options) {
-  // --hardwarnings means something to the reader of a .csg, too.
-  const bool has_options =
-      std::any_of(options.openscad_arguments.begin(), options.openscad_arguments.end(),
-                  [](const std::string& word) { return word != "--hardwarnings"; });
-  return is_scad(path) || (has_options && may_be_scad(path));
 }
 
 ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options) {
   options.folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
-  if (text.evaluation) {
-    options.font_files = [fonts = fonts_of(*text.evaluation)] { return fonts; };
-  } else if (text.is_exported) {
-    options.font_files = [path] { return IncludedFiles().fonts_of(path); };
+  if (text.is_exported) {
+    options.font_files = [fonts = fonts_of(text.evaluation ? text.evaluation->files_read
+                                                           : text.files)] { return fonts; };
   }
   return options;
 }
@@ -213,51 +232,13 @@ std::vector<NamedPath> design_inputs(const std::string& path,
   return inputs;
 }
 
-void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
-                        const std::stop_token& stop) {
-  text.is_exported = true;
-  const Clock::time_point start = Clock::now();
-  if (options.evaluator == Evaluator::kOwn || is_importable(path)) {
-    options.progress("evaluating");
-    text.evaluation = evaluate_design(path, text.scad, options, stop);
-    text.export_ms = ms_since(start);
-    if (text.evaluation) {
-      text.files = files_of(*text.evaluation, path);
-      return;
-    }
-  }
-  // Places in the exported text must not look like places in the .scad.
-  text.name = input_name(path) + " (its .csg)";
-  std::vector<std::string> arguments = options.openscad_arguments;
-  if (options.import.picture == PictureKind::kRendered) {
-    // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
-    arguments.insert(arguments.begin(), {"-D", "$preview=false"});
-  }
-  if (options.inputs.time) {
-    arguments.insert(arguments.end(), {"-D", time_assignment(*options.inputs.time)});
-  }
-  std::optional<MemoryFile> parameters;
-  if (options.inputs.parameters) {
-    parameters.emplace(parameter_file(*options.inputs.parameters));
-    replace_parameter_set(arguments, *parameters);
-  }
-  OpenScadExport result = export_with_openscad(
-      path, arguments, options.wants_files, options.message,
-      [&options] { options.progress("openscad"); }, stop,
-      is_read_once(path) ? text.scad : std::nullopt);
-  text.csg = std::move(result.csg);
-  text.files = std::move(result.files);
-  if (options.wants_files && is_read_once(path)) text.files.push_back(path);  // openscad reads "-"
-  text.export_ms = ms_since(start);
-}
-
 DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
                             const std::stop_token& stop) {
   DesignText text;
   const Clock::time_point start = Clock::now();
   text.name = input_name(path);
   text.scad = options.text ? options.text : text_in_memory(path, stop);
-  if (is_evaluated(path, options) || is_importable(path)) {
+  if (!is_csg(path, options, text.scad, stop)) {
     if (!text.scad) check_input(path);
     text.read_ms = ms_since(start);
     export_design_text(path, options, text, stop);

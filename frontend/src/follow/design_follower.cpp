@@ -15,7 +15,6 @@
 #include "base/descriptor.hpp"
 #include "follow/design_reading.hpp"
 #include "follow/file_watch.hpp"
-#include "follow/included_files.hpp"
 #include "follow/input_turn.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/files.hpp"
@@ -250,7 +249,7 @@ class DesignFollower::Follower {
     const bool lacks_parts = design && !design->lines_to_render.empty();
     if (!lacks_parts) turn_.finish();
     good_ = std::move(result_.good);
-    is_scad_ = is_scad(path_) || result_.is_scad;
+    if (!result_.watched.empty()) watched_ = std::move(result_.watched);
     DesignVersion version = std::move(result_.version);
     if (version.error.empty()) imports_ = std::move(version.files);
     if (is_followed_) watch_.set_files(paths_to_watch(), reading_since_ns_);
@@ -270,8 +269,9 @@ class DesignFollower::Follower {
     if (state_.exchange(state) != state) on_news_();
   }
 
-  /// Returns the files that the design includes now, and those that the last version that could be
-  /// read has read, since openscad names none after an error. Stores their names in files_.
+  /// Returns the files that the last evaluation has read or looked for, and those that the last
+  /// version that could be read has read, since openscad names none after an error. Stores their
+  /// names in files_.
   std::vector<std::string> paths_to_watch() {
     files_.clear();
     std::vector<std::string> paths;
@@ -283,9 +283,7 @@ class DesignFollower::Follower {
       paths.push_back(std::move(path));
     };
     add(path_);
-    if (is_scad_) {
-      for (const std::string& name : included_.of(absolute(path_))) add(name);
-    }
+    for (const std::string& name : watched_) add(name);
     for (const std::string& name : imports_) add(name);
     return paths;
   }
@@ -309,16 +307,15 @@ class DesignFollower::Follower {
 
   // Used by the watching thread alone.
   FileWatch watch_;
-  IncludedFiles included_;
   std::vector<std::string> files_;  // watched files, by their names
   /// The hulls of the last version that was read to its end.
   const std::shared_ptr<HullPool> hulls_ = std::make_shared<HullPool>(HullPool::Keeps::kAll);
   /// What the evaluator keeps of the last version.
   const std::shared_ptr<language::EvaluationCache> cache_ =
       std::make_shared<language::EvaluationCache>();
-  std::vector<std::string> imports_;  // files imported by the last version that could be read
+  std::vector<std::string> watched_;  // what the last evaluation has read or looked for
+  std::vector<std::string> imports_;  // files that the last version that could be read has read
   GoodVersion good_;
-  bool is_scad_ = is_scad(path_);
   uint64_t number_ = 0;
   std::optional<Clock::time_point> noticed_;  // when the save that is still to be read was noticed
   InputTurn turn_;

@@ -11,12 +11,12 @@
 
 #include "base/elapsed.hpp"
 #include "follow/evaluated_design.hpp"
+#include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/stop.hpp"
 #include "language/customizer.hpp"
 #include "language/evaluation.hpp"
-#include "lower/import_files.hpp"
 
 namespace frontend {
 namespace {
@@ -98,19 +98,11 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     if (!reading.good.stream) reading.good.stream = text_in_memory(path, stop);
     file_options.text = reading.good.stream;
   }
-  reading.is_scad = is_evaluated(path, file_options) && !is_importable(path);
+  file_options.watch = [&reading](std::vector<std::string> paths) {
+    reading.watched = std::move(paths);
+  };
   DesignText text = read_design_text(path, file_options, stop);
-  std::optional<SyntaxTree> tree;
-  try {
-    tree = parse_text(text, reading, stop);
-  } catch (const Error&) {
-    if (text.is_exported || !may_be_scad(path)) throw;
-    reading.is_scad = true;
-  }
-  if (reading.is_scad && !text.is_exported) {
-    export_design_text(path, file_options, text, stop);
-    tree = parse_text(text, reading, stop);
-  }
+  std::optional<SyntaxTree> tree = parse_text(text, reading, stop);
   file_options.progress("importing");
   if (tree) {
     import_into(reading, std::move(*tree), path, beside(path, text, file_options.import), text,
@@ -135,8 +127,11 @@ void find_parameters(DesignReading& reading, const std::string& path) {
   std::shared_ptr<const DesignParameters>& known = reading.good.parameters;
   const std::optional<FileText>& stream = reading.good.stream;
   std::error_code failed;
-  if ((is_scad(path) || reading.is_scad) &&
-      (stream || std::filesystem::is_regular_file(path, failed))) {
+  const DesignKind kind = kind_of(path);
+  const bool is_scad =
+      kind == DesignKind::kScad ||
+      (kind == DesignKind::kEither && (!reading.version.error.empty() || reading.good.is_exported));
+  if (is_scad && (stream || std::filesystem::is_regular_file(path, failed))) {
     const FileText text = stream ? *stream : read_file(path);
     if (!known || known->text != text.view()) {
       auto list = language::customizer_parameters(text.view());
@@ -172,6 +167,7 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   DesignText text;
   text.is_exported = reading.good.is_exported;
   text.evaluation = reading.good.texts.evaluation;
+  text.files = version.files;
   ImportOptions import_options = beside(path, text, options.import);
   import_options.rendering.is_in_background = true;
   const GoodVersion& good = reading.good;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "frontend/design_file.hpp"
 #include "frontend/design_version.hpp"
@@ -29,8 +30,9 @@ struct DesignReading {
   /// The version without its number and time. `files` are those that it reports; after an error,
   /// none.
   DesignVersion version;
-  GoodVersion good;      // this version, or after an error the one before
-  bool is_scad = false;  // told by the text, where the name does not tell
+  GoodVersion good;  // this version, or after an error the one before
+  /// Absolute paths of what the own evaluator has read or looked for in vain, after an error, too.
+  std::vector<std::string> watched;
 };
 
 /// Reads the design. What openscad has to render of it, and has not rendered before, is missing

@@ -2,24 +2,28 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "follow/included_files.hpp"
 #include "follow/openscad_messages.hpp"
+#include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
 #include "language/stopped.hpp"
-#include "lower/import_files.hpp"
 
 namespace frontend {
 namespace {
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 /// Sets a flag by OpenSCAD's words for true and false, in any case; any other word leaves it.
 void read_flag(std::string_view value, bool& flag) {
-  std::string lower(value);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = lower_case(std::string(value));
   if (lower == "true" || lower == "on" || lower == "1") flag = true;
   if (lower == "false" || lower == "off" || lower == "0") flag = false;
 }
@@ -72,7 +76,7 @@ std::optional<language::EvaluationOptions> evaluation_options(
       options.parameter_file = value;
     } else if (word == "-P") {
       options.parameter_set = value;
-    } else if (!is_importable(path)) {
+    } else if (kind_of(path) != DesignKind::kImported) {
       return std::nullopt;
     }
   }
@@ -109,6 +113,11 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   } catch (const language::Stopped&) {
     throw Stopped{};
   }
+  if (options.watch) {
+    std::vector<std::string> paths = evaluation.files_read;
+    paths.insert(paths.end(), evaluation.lookups.begin(), evaluation.lookups.end());
+    options.watch(std::move(paths));
+  }
   // A syntax error in a used file, or a parameter file that cannot be read, ends nothing.
   const bool lacks_files = options.needs_all_files && evaluation.has_unparsed_files;
   if (evaluation.outcome == language::Outcome::kDone && !lacks_files) messages.pass_errors();
@@ -130,11 +139,12 @@ std::vector<std::string> files_of(const language::Evaluation& evaluation, const 
   return files;
 }
 
-std::vector<std::string> fonts_of(const language::Evaluation& evaluation) {
+std::vector<std::string> fonts_of(const std::vector<std::string>& files) {
   std::vector<std::string> fonts;
-  std::copy_if(evaluation.files_read.begin(), evaluation.files_read.end(),
-               std::back_inserter(fonts),
-               [](const std::string& file) { return is_font_name(file); });
+  std::copy_if(files.begin(), files.end(), std::back_inserter(fonts), [](const std::string& file) {
+    const std::string suffix = lower_case(std::filesystem::path(file).extension().string());
+    return suffix == ".ttf" || suffix == ".otf";
+  });
   return fonts;
 }
 

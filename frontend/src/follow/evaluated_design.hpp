@@ -32,8 +32,8 @@ std::optional<std::string_view> view_of(const std::optional<FileText>& text);
 /// Returns the files that a design was read from, itself last, under the name that it was given.
 std::vector<std::string> files_of(const language::Evaluation& evaluation, const std::string& path);
 
-/// Returns the fonts among them.
-std::vector<std::string> fonts_of(const language::Evaluation& evaluation);
+/// Returns those of the files that are fonts, by their suffixes, as OpenSCAD tells them.
+std::vector<std::string> fonts_of(const std::vector<std::string>& files);
 
 /// Returns the camera that the design sets.
 DesignCamera camera_of(const language::Evaluation& evaluation);

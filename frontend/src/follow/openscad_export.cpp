@@ -154,7 +154,7 @@ ChildProcess start(const ChildSetup& setup) {
 }  // namespace
 
 OpenScadExport export_with_openscad(const std::string& scad_path,
-                                    const std::vector<std::string>& arguments, bool wants_files,
+                                    const std::vector<std::string>& arguments,
                                     const DesignMessageSink& message,
                                     const std::function<void()>& waiting,
                                     const std::stop_token& stop,
@@ -163,12 +163,9 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   if (stop.stop_possible()) stop_event.emplace(stop);
   const int stop_descriptor = stop_event ? stop_event->descriptor() : -1;
   throw_if_stopped(stop);
-  std::vector<std::string> command = {openscad_program(), "-o", "-", "--export-format=csg"};
-  std::optional<MemoryFile> rule;
-  if (wants_files) {
-    rule.emplace();
-    command.insert(command.end(), {"-d", rule->path()});
-  }
+  const MemoryFile rule;
+  std::vector<std::string> command = {openscad_program(),    "-o", "-",
+                                      "--export-format=csg", "-d", rule.path()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   command.push_back("--");  // a name may begin with a dash
   std::optional<MemoryFile> input;
@@ -179,7 +176,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   ChildProcess openscad = start({.command = command,
                                  .output = out.write_end(),
                                  .errors = err.write_end(),
-                                 .kept = rule ? rule->descriptor() : -1,
+                                 .kept = rule.descriptor(),
                                  .input = input ? input->descriptor() : -1});
   out.close_write_end();
   err.close_write_end();
@@ -204,8 +201,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   if (result.csg.view().empty()) {
     throw Error(scad_path, {}, "openscad wrote no .csg", "see what it says above");
   }
-  if (rule)
-    result.files = prerequisites_of(read_descriptor(rule->descriptor(), "a file in memory").view());
+  result.files = prerequisites_of(read_descriptor(rule.descriptor(), "a file in memory").view());
   return result;
 }
 

@@ -23,6 +23,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 using testing::StartsWith;
 
@@ -333,7 +334,7 @@ TEST_F(EvaluatedDesign, FromAPipeIsGivenToOpenScad) {
           .err,
       "");
   EXPECT_EQ(folder_.read("text"), "module a() {} a();");
-  EXPECT_EQ(folder_.read("arguments"), "-o - --export-format=csg -- -\n");
+  EXPECT_THAT(folder_.read("arguments"), MatchesRegex("-o - --export-format=csg -d [^ ]+ -- -\n"));
   run_with_input("b();", {"--evaluator=openscad", "-o", folder_ / "x.csg", "-"});
   EXPECT_EQ(folder_.read("text"), "b();");
 }

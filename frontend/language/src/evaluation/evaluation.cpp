@@ -51,7 +51,7 @@ class Session {
   void read_camera_value(const Machine& machine, std::string_view name, std::string_view type,
                          Converted (*convert)(const Value&, bool&), Converted& target);
   void say_root_modifiers();
-  void list_files(const NamedFiles& named);
+  void list_sources();
 
   const std::string& path_;
   const EvaluationOptions& options_;
@@ -176,6 +176,15 @@ void Session::run_program(Machine& machine) {
   machine_ = nullptr;
 }
 
+// A loop may name the same files again and again.
+void append_new(std::vector<std::string>& list, const std::vector<std::string>& paths) {
+  std::unordered_set<std::string_view> known(list.begin(), list.end());
+  std::vector<std::string> added;
+  for (const std::string& path : paths)
+    if (known.insert(path).second) added.push_back(path);
+  list.insert(list.end(), added.begin(), added.end());
+}
+
 void Session::evaluate_program() {
   keep_freed_memory();
   object_memory.limit = kMemoryLimit;
@@ -202,29 +211,20 @@ void Session::evaluate_program() {
     abort();
   }
   say_root_modifiers();
-  list_files(files);
+  list_sources();
+  append_new(result_.files_read, files.files_read());
+  append_new(result_.lookups, files.lookups());
   if (!kept_) return;
   machine.save_units(kept_->tops);
   if (result_.outcome == Outcome::kDone) calls_ = machine.take_calls();
 }
 
-// A loop may name the same files again and again.
-void append_new(std::vector<std::string>& list, const std::vector<std::string>& paths) {
-  std::unordered_set<std::string_view> known(list.begin(), list.end());
-  std::vector<std::string> added;
-  for (const std::string& path : paths)
-    if (known.insert(path).second) added.push_back(path);
-  list.insert(list.end(), added.begin(), added.end());
-}
-
-void Session::list_files(const NamedFiles& named) {
+void Session::list_sources() {
   std::vector<std::string> sources;
   for (const FileId file : program_->files.order()) sources.push_back(program_->files[file].path);
   append_new(result_.files_read, sources);
   for (const Unit& unit : program_->units) append_new(result_.files_read, unit.fonts);
-  append_new(result_.files_read, named.files_read());
   append_new(result_.lookups, program_->lookups);
-  append_new(result_.lookups, named.lookups());
 }
 
 void Session::parse_and_evaluate() {
@@ -240,6 +240,7 @@ void Session::parse_and_evaluate() {
     const WorkWatch watch(options_.stop);
     evaluate_program();
   } else {
+    list_sources();  // a save of one of them may mend the design
     result_.outcome =
         parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;
   }
