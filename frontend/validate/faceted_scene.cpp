@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/primitive_traits.hpp"
+#include "csgcore/polyhedron.hpp"
 
 namespace validation {
 
@@ -21,13 +22,13 @@ constexpr double kShellSlack = 1e-9;
 }  // namespace
 
 std::optional<csgcore::Scene> faceted(const csgcore::Scene& scene, int fragments) {
-  std::map<frontend::LocalSolid, std::shared_ptr<const csgcore::Polyhedron>> shared;
+  std::map<csgcore::LocalSolid, std::shared_ptr<const csgcore::Polyhedron>> shared;
   csgcore::Scene result = scene;
   for (Primitive& primitive : result.primitives) {
-    if (primitive.mesh) continue;
-    auto& polyhedron = shared[frontend::local_solid(primitive)];
+    if (primitive.mesh()) continue;
+    auto& polyhedron = shared[primitive.solid];
     if (!polyhedron) {
-      polyhedron = frontend::traits_of(primitive.shape).faceted(primitive, fragments);
+      polyhedron = csgcore::faceted_polyhedron(primitive, fragments);
     }
     if (!polyhedron) return std::nullopt;
     Primitive replacement = csgcore::make_polyhedron(polyhedron, primitive.local_to_world);
@@ -40,7 +41,7 @@ std::optional<csgcore::Scene> faceted(const csgcore::Scene& scene, int fragments
 
 SagittaShell::SagittaShell(const Primitive& primitive, int fragments)
     : primitive_(primitive),
-      traits_(frontend::traits_of(primitive.shape)),
+      traits_(frontend::traits_of(primitive.shape())),
       world_to_local_(csgcore::inverse(primitive.local_to_world.linear)),
       inner_(traits_.inscribed_share(fragments)) {}
 

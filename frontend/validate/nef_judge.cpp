@@ -203,9 +203,9 @@ NefTruth::NefTruth(const csgcore::Scene& scene, double size, double thickness,
 NefTruth::Surface NefTruth::surface_of(const csgcore::Primitive& primitive) {
   const csgcore::Affine& map = primitive.local_to_world;
   Surface surface;
-  if (!primitive.mesh) {
+  if (!primitive.mesh()) {
     const csgcore::Mat3 world_to_local = csgcore::inverse(map.linear);
-    for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
+    for (const csgcore::HalfSpace& half_space : primitive.polyhedron()->half_spaces()) {
       const Vec3 normal = glm::transpose(world_to_local) * half_space.normal;
       const double length = glm::length(normal);
       surface.planes.push_back({normal / length, half_space.offset / length +
@@ -213,9 +213,9 @@ NefTruth::Surface NefTruth::surface_of(const csgcore::Primitive& primitive) {
     }
     return surface;
   }
-  for (const csgcore::TriangleMesh::Triangle& triangle : primitive.mesh->triangles()) {
+  for (const csgcore::TriangleMesh::Triangle& triangle : primitive.mesh()->triangles()) {
     const auto corner = [&](std::size_t k) {
-      return map.point(primitive.mesh->vertices()[triangle[k]]);
+      return map.point(primitive.mesh()->vertices()[triangle[k]]);
     };
     const Vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
     const double length = glm::length(normal);

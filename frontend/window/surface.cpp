@@ -68,8 +68,23 @@ struct SurfacePoint {
   }
 };
 
-Surface frustum_surface(const SurfacePoint& point) {
-  const Primitive& frustum = point.primitive;
+/// Of a kind that has no answer of its own, nothing is known.
+template <class AnyShape>
+Surface surface_of(const AnyShape&, const SurfacePoint&) {
+  return {};
+}
+
+Surface surface_of(const csgcore::SphereShape& sphere, const SurfacePoint& point) {
+  return point.about_center(Vec3(0.0), sphere.radius);
+}
+
+Surface surface_of(const csgcore::PolyhedronShape&, const SurfacePoint& point) {
+  return point.plane();
+}
+
+Surface surface_of(const csgcore::MeshShape&, const SurfacePoint& point) { return point.plane(); }
+
+Surface surface_of(const csgcore::FrustumShape& frustum, const SurfacePoint& point) {
   const double share = (point.local.z - frustum.z_min) / (frustum.z_max - frustum.z_min);
   const double radius = frustum.r_bottom + share * (frustum.r_top - frustum.r_bottom);
   Surface round = point.about_axis({0, 0}, radius);
@@ -108,14 +123,14 @@ bool has_beziers(const csgcore::Profile& profile) {
                      });
 }
 
-Surface extrusion_surface(const SurfacePoint& point) {
+Surface surface_of(const csgcore::ExtrusionShape& extrusion, const SurfacePoint& point) {
   if (point.is_on_end()) return point.plane();
-  const Primitive& extrusion = point.primitive;
   const double share = (point.local.z - extrusion.z_min) / (extrusion.z_max - extrusion.z_min);
-  const double scale = extrusion.r_bottom + share * (extrusion.r_top - extrusion.r_bottom);
+  const double scale =
+      extrusion.scale_bottom + share * (extrusion.scale_top - extrusion.scale_bottom);
   const Vec2 in_profile = Vec2(point.local) / scale;
   if (const std::optional<Circle> arc = arc_through(*extrusion.profile, in_profile)) {
-    const bool is_cylinder = extrusion.r_bottom == extrusion.r_top;
+    const bool is_cylinder = extrusion.scale_bottom == extrusion.scale_top;
     const bool is_about_axis = arc->center == Vec2(0.0);
     if (!is_cylinder && !is_about_axis) return {};  // an oblique cone
     return point.about_axis(scale * arc->center, scale * arc->radius);
@@ -123,11 +138,10 @@ Surface extrusion_surface(const SurfacePoint& point) {
   return has_beziers(*extrusion.profile) ? Surface{} : point.plane();
 }
 
-Surface revolution_surface(const SurfacePoint& point) {
+Surface surface_of(const csgcore::RevolutionShape& revolution, const SurfacePoint& point) {
   if (point.is_on_end()) return point.plane();
   const double distance = std::hypot(point.local.x, point.local.y);
-  const std::optional<Circle> arc =
-      arc_through(*point.primitive.profile, {distance, point.local.z});
+  const std::optional<Circle> arc = arc_through(*revolution.profile, {distance, point.local.z});
   if (arc && arc->center.x == 0) return point.about_center({0, 0, arc->center.y}, arc->radius);
   return point.about_axis({0, 0}, distance);
 }
@@ -235,8 +249,19 @@ void add_wall(const Affine& map, const WallEnd& a, const WallEnd& b,
                    {*scale * a.radius_local, *scale * b.radius_local}});
 }
 
-void add_walls_of_extrusion(const Primitive& extrusion, std::vector<RoundWall>& walls) {
-  const bool is_straight = extrusion.r_bottom == extrusion.r_top;
+/// Adds the round walls of a kind's solids; most kinds have none.
+template <class AnyShape>
+void add_walls(const AnyShape&, const Affine&, std::vector<RoundWall>&) {}
+
+void add_walls(const csgcore::FrustumShape& frustum, const Affine& map,
+               std::vector<RoundWall>& walls) {
+  add_wall(map, {{0, 0, frustum.z_min}, frustum.r_bottom}, {{0, 0, frustum.z_max}, frustum.r_top},
+           walls);
+}
+
+void add_walls(const csgcore::ExtrusionShape& extrusion, const Affine& map,
+               std::vector<RoundWall>& walls) {
+  const bool is_straight = extrusion.scale_bottom == extrusion.scale_top;
   for (const csgcore::ProfileLoop& loop : extrusion.profile->loops()) {
     for (const ProfileEdge& edge : loop) {
       if (edge.kind != ProfileEdge::Kind::kArc) continue;
@@ -245,19 +270,19 @@ void add_walls_of_extrusion(const Primitive& extrusion, std::vector<RoundWall>& 
       const auto end = [&](double z, double scale) {
         return WallEnd{{scale * edge.control, z}, scale * radius};
       };
-      add_wall(extrusion.local_to_world, end(extrusion.z_min, extrusion.r_bottom),
-               end(extrusion.z_max, extrusion.r_top), walls);
+      add_wall(map, end(extrusion.z_min, extrusion.scale_bottom),
+               end(extrusion.z_max, extrusion.scale_top), walls);
     }
   }
 }
 
-void add_walls_of_revolution(const Primitive& revolution, std::vector<RoundWall>& walls) {
+void add_walls(const csgcore::RevolutionShape& revolution, const Affine& map,
+               std::vector<RoundWall>& walls) {
   for (const csgcore::ProfileLoop& loop : revolution.profile->loops()) {
     Vec2 start = loop.empty() ? Vec2(0.0) : loop.back().end;
     for (const ProfileEdge& edge : loop) {
       if (edge.kind == ProfileEdge::Kind::kLine) {
-        add_wall(revolution.local_to_world, {{0, 0, start.y}, start.x},
-                 {{0, 0, edge.end.y}, edge.end.x}, walls);
+        add_wall(map, {{0, 0, start.y}, start.x}, {{0, 0, edge.end.y}, edge.end.x}, walls);
       }
       start = edge.end;
     }
@@ -270,40 +295,13 @@ Surface surface_at(const Primitive& primitive, const Vec3& position, const Vec3&
   const Affine& map = primitive.local_to_world;
   const SurfacePoint point{primitive, position, normal,
                            csgcore::inverse(map.linear) * (position - map.translation)};
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return point.about_center(Vec3(0.0), primitive.r_bottom);
-    case Shape::kFrustum:
-      return frustum_surface(point);
-    case Shape::kExtrusion:
-      return extrusion_surface(point);
-    case Shape::kRevolution:
-      return revolution_surface(point);
-    case Shape::kPolyhedron:
-    case Shape::kMesh:
-      return point.plane();
-  }
-  return {};
+  return std::visit([&](const auto& shape) { return surface_of(shape, point); }, primitive.solid);
 }
 
 std::vector<RoundWall> round_walls(const Primitive& primitive) {
   std::vector<RoundWall> walls;
-  switch (primitive.shape) {
-    case Shape::kFrustum:
-      add_wall(primitive.local_to_world, {{0, 0, primitive.z_min}, primitive.r_bottom},
-               {{0, 0, primitive.z_max}, primitive.r_top}, walls);
-      break;
-    case Shape::kExtrusion:
-      add_walls_of_extrusion(primitive, walls);
-      break;
-    case Shape::kRevolution:
-      add_walls_of_revolution(primitive, walls);
-      break;
-    case Shape::kSphere:
-    case Shape::kPolyhedron:
-    case Shape::kMesh:
-      break;
-  }
+  std::visit([&](const auto& shape) { add_walls(shape, primitive.local_to_world, walls); },
+             primitive.solid);
   return walls;
 }
 

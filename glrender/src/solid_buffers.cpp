@@ -234,8 +234,8 @@ void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<
                          : primitive.profile() ? profiles_.first_of(profile_of(primitive))
                                                : faces_.first_of(primitive.polyhedron.get());
   texels.insert(texels.end(), {center.x, center.y, center.z, static_cast<float>(faces)});
-  const double unit = kind == csgcore::Shape::kExtrusion ? 1 / primitive.profile()->reach() : 1;
-  const double beside[] = {unit * primitive.radius_mid, unit * primitive.radius_slope, shape};
+  const auto [first, second] = shader_numbers(primitive);
+  const double beside[] = {first, second, shape};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       texels.push_back(static_cast<float>(primitive.world_to_canonical[column][row]));

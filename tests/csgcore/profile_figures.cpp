@@ -208,9 +208,10 @@ struct FigurePoint {
   Real scale;
 };
 FigurePoint figure_point(const Primitive& primitive, const LongVec3& p) {
-  if (primitive.shape == Shape::kRevolution) return {std::hypot(p.x, p.y), p.z, 1};
-  const Real share = (p.z - primitive.z_min) / (Real(primitive.z_max) - primitive.z_min);
-  const Real scale = primitive.r_bottom + share * (Real(primitive.r_top) - primitive.r_bottom);
+  if (primitive.shape() == Shape::kRevolution) return {std::hypot(p.x, p.y), p.z, 1};
+  const auto& [profile, z_min, z_max, bottom, top] = primitive.as<ExtrusionShape>();
+  const Real share = (p.z - z_min) / (Real(z_max) - z_min);
+  const Real scale = bottom + share * (Real(top) - bottom);
   return {p.x / scale, p.y / scale, scale};
 }
 
@@ -222,11 +223,12 @@ bool is_straight(const Vec2& start, const ProfileEdge& edge) {
 }  // namespace
 
 bool holds_local(const Primitive& primitive, const LongVec3& p) {
-  if (primitive.shape == Shape::kExtrusion && (p.z < primitive.z_min || p.z > primitive.z_max)) {
+  const auto* const extrusion = std::get_if<ExtrusionShape>(&primitive.solid);
+  if (extrusion && (p.z < extrusion->z_min || p.z > extrusion->z_max)) {
     return false;
   }
   const FigurePoint at = figure_point(primitive, p);
-  return holds(primitive.profile->loops(), primitive.profile->fill_rule(), at.x, at.y);
+  return holds(primitive.profile()->loops(), primitive.profile()->fill_rule(), at.x, at.y);
 }
 
 bool is_at_edge(const Primitive& primitive, const LongVec3& p) {
@@ -240,7 +242,7 @@ bool is_at_edge(const Primitive& primitive, const LongVec3& p) {
     const Real share = along > 0 ? std::min<Real>(along, 1) : 0;
     return std::hypot(at.x - from.x - share * x, at.y - from.y - share * y) < kNext;
   };
-  for (const ProfileLoop& loop : primitive.profile->loops()) {
+  for (const ProfileLoop& loop : primitive.profile()->loops()) {
     Vec2 start = loop.back().end;
     for (const ProfileEdge& edge : loop) {
       if (edge.kind == Kind::kLine) {

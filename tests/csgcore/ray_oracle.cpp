@@ -36,7 +36,7 @@ RayPacket packet_of(std::span<const PivotRay> rays) {
 
 RayOracle::RayOracle(const Primitive& primitive, const Vec3& pivot)
     : primitive_(primitive),
-      kind_(test_support::test_kind_of(primitive.shape)),
+      kind_(test_support::test_kind_of(primitive.shape())),
       world_to_local_(glm::inverse(LongMat3(primitive.local_to_world.linear))),
       pivot_from_local_origin_(LongVec3(pivot) - LongVec3(primitive.local_to_world.translation)),
       size_(kind_.reach_world(primitive)) {

@@ -32,7 +32,7 @@ SpecialRays::SpecialRays(const Primitive& primitive, const Vec3& pivot, std::mt1
       map_(primitive.local_to_world),
       pivot_(pivot),
       random_(random),
-      kind_(test_support::test_kind_of(primitive.shape)),
+      kind_(test_support::test_kind_of(primitive.shape())),
       z_min_(kind_.heights(primitive).low),
       z_max_(kind_.heights(primitive).high),
       size_(size_of(kind_, primitive)) {}

@@ -45,8 +45,8 @@ uint32_t divisor_for(const csgcore::Scene& scene) {
   uint32_t divisor = 1;
   if (test_support::full_run()) return divisor;
   for (const csgcore::Primitive& primitive : scene.primitives) {
-    if (primitive.mesh) divisor = std::max(divisor, 2u);
-    if (primitive.profile) divisor = 4;
+    if (primitive.mesh()) divisor = std::max(divisor, 2u);
+    if (primitive.profile()) divisor = 4;
   }
   return divisor;
 }

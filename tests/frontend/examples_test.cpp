@@ -183,11 +183,11 @@ void expect_uniform(const std::vector<Bite>& bites) {
 }
 
 void expect_body(const Primitive& body) {
-  EXPECT_EQ(body.shape, Shape::kFrustum);
-  EXPECT_EQ(body.r_bottom, kRadius);
-  EXPECT_EQ(body.r_top, kRadius);
-  EXPECT_EQ(body.z_min, -kHeight / 2);
-  EXPECT_EQ(body.z_max, kHeight / 2);
+  EXPECT_EQ(body.shape(), Shape::kFrustum);
+  EXPECT_EQ(body.as<csgcore::FrustumShape>().r_bottom, kRadius);
+  EXPECT_EQ(body.as<csgcore::FrustumShape>().r_top, kRadius);
+  EXPECT_EQ(body.as<csgcore::FrustumShape>().z_min, -kHeight / 2);
+  EXPECT_EQ(body.as<csgcore::FrustumShape>().z_max, kHeight / 2);
 }
 
 void expect_spheres(const ImportedDesign& design) {
@@ -196,8 +196,8 @@ void expect_spheres(const ImportedDesign& design) {
   expect_body(design.scene.primitives.at(0));
   for (const Primitive& p : design.scene.primitives) {
     if (&p == &design.scene.primitives[0]) continue;
-    ASSERT_EQ(p.shape, Shape::kSphere);
-    EXPECT_NEAR(p.r_bottom, 20 / std::sqrt(n), kRounding);
+    ASSERT_EQ(p.shape(), Shape::kSphere);
+    EXPECT_NEAR(p.as<csgcore::SphereShape>().radius, 20 / std::sqrt(n), kRounding);
     bites.push_back(bite_at(p.local_to_world.translation));
   }
   expect_uniform(bites);
@@ -220,11 +220,12 @@ TEST(PaperModels, ConesBiteThroughTheSurface) {
     expect_body(design.scene.primitives.at(0));
     for (const Primitive& p : design.scene.primitives) {
       if (&p == &design.scene.primitives[0]) continue;
-      ASSERT_EQ(p.r_bottom, 0) << "the apex is inwards";
-      EXPECT_NEAR(p.r_top, 26 / std::sqrt(n), kRounding);
-      EXPECT_NEAR(p.z_max - p.z_min, 4 * 26 / std::sqrt(n), kRounding);
+      const auto& [z_min, z_max, r_bottom, r_top] = p.as<csgcore::FrustumShape>();
+      ASSERT_EQ(r_bottom, 0) << "the apex is inwards";
+      EXPECT_NEAR(r_top, 26 / std::sqrt(n), kRounding);
+      EXPECT_NEAR(z_max - z_min, 4 * 26 / std::sqrt(n), kRounding);
       const Vec3 outwards = p.local_to_world.linear[2];
-      const Vec3 middle = p.local_to_world.point({0, 0, p.z_min + (p.z_max - p.z_min) * 2 / 3});
+      const Vec3 middle = p.local_to_world.point({0, 0, z_min + (z_max - z_min) * 2 / 3});
       bites.push_back(bite_at(middle));
       const double cosine = glm::dot(glm::normalize(outwards), bites.back().normal);
       const double tilt_deg = std::acos(std::min(1.0, cosine)) * 180 / std::acos(-1.0);

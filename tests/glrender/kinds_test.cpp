@@ -56,7 +56,7 @@ TEST_P(KindsTest, AreDrawnAsByTheCpu) {
       const View view = gl_test::view_from(scene, projection, 25, 35);
       const csgcore::Image gl = loaded.draw(view), cpu = gl_test::draw_by_cpu(loaded, view);
       const double size = csgcore::reference_box(scene).diagonal();
-      const bool is_mesh = body.shape == csgcore::Shape::kMesh;
+      const bool is_mesh = body.shape() == csgcore::Shape::kMesh;
       gl_test::expect_agreement(gl, cpu, view, size, is_mesh ? kMeshEdges : kEdges,
                                 std::get<Variant>(GetParam()).name);
     }

@@ -363,7 +363,7 @@ struct BothRays {
 /// A ray through two points of a solid, each the middle of up to four of its vertices (often one,
 /// or two neighbours). So it goes through edges and vertices, and along faces, up to rounding.
 BothRays special_ray(const Primitive& primitive, std::mt19937& random) {
-  const std::vector<Vec3>& vertices = primitive.polyhedron->vertices();
+  const std::vector<Vec3>& vertices = primitive.polyhedron()->vertices();
   const auto point = [&] {
     const size_t count = 1 + random() % 4, first = random() % vertices.size();
     Vec3 sum(0.0);

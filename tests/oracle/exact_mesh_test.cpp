@@ -65,7 +65,7 @@ MeshParts trough() {
 TEST(ExactMesh, IsMetInSeveralSegments) {
   const Ray along_x{{-5, 4.5, 3}, {1, 0, 0}};
   const csgcore::Primitive solid = mesh(trough());
-  ASSERT_TRUE(solid.mesh->is_closed());
+  ASSERT_TRUE(solid.mesh()->is_closed());
   const ExactHit first = hit_of(scene_of(Op::kUnion, {solid}), along_x);
   EXPECT_EQ(first.s.lower, 5);
   EXPECT_EQ(first.s.upper, 5);
@@ -149,7 +149,7 @@ TEST(ExactMesh, AHoleShowsASheet) {
     return open.vertices[t[0]].z > 0 && open.vertices[t[1]].z > 0 && open.vertices[t[2]].z > 0;
   });
   const csgcore::Primitive box = mesh(open);
-  ASSERT_FALSE(box.mesh->is_closed());
+  ASSERT_FALSE(box.mesh()->is_closed());
   const Scene scene = scene_of(Op::kUnion, {box});
   const double tau = ExactScene(scene).thickness();
   // Through the hole one sees the bottom from within; a ray through two sides sees a solid.

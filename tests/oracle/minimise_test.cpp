@@ -35,8 +35,8 @@ TEST(Minimise, KeepsWhatItTakes) {
       const auto tokens = scene.model.tokens().subspan(i - 2, 3);
       if (!tokens[1].is_primitive || tokens[2].is_primitive) continue;
       const Primitive& cut = scene.primitives[tokens[1].value];
-      if (tokens[2].op == Op::kDifference && cut.shape == Shape::kFrustum && cut.r_top == 0 &&
-          cut.local_to_world.translation.z > 2.37) {
+      if (tokens[2].op == Op::kDifference && cut.shape() == Shape::kFrustum &&
+          cut.as<csgcore::FrustumShape>().r_top == 0 && cut.local_to_world.translation.z > 2.37) {
         return true;
       }
     }
@@ -52,11 +52,11 @@ TEST(Minimise, KeepsWhatItTakes) {
     ASSERT_EQ(smallest.model.tokens().size(), 3u) << as_openscad(smallest);
     ASSERT_EQ(smallest.primitives.size(), 2u);
     const Primitive &body = smallest.primitives[0], &cut = smallest.primitives[1];
-    EXPECT_EQ(body.shape, Shape::kSphere);
-    EXPECT_EQ(body.r_bottom, 1);
+    EXPECT_EQ(body.shape(), Shape::kSphere);
+    EXPECT_EQ(body.as<csgcore::SphereShape>().radius, 1);
     EXPECT_EQ(body.id, 0u);
     EXPECT_EQ(cut.id, 1u);
-    EXPECT_EQ(cut.r_bottom, 1);
+    EXPECT_EQ(cut.as<csgcore::FrustumShape>().r_bottom, 1);
     EXPECT_EQ(body.local_to_world.linear, Mat3(1.0));
     EXPECT_EQ(body.local_to_world.translation, Vec3(0.0));
     EXPECT_EQ(cut.local_to_world.translation.x, 0);
@@ -71,11 +71,11 @@ TEST(Minimise, PolyhedraBecomeSimpler) {
   const auto faces_of = [&](size_t least) {
     const Scene smallest = minimise(scene, [&](const Scene& s) {
       return std::any_of(s.primitives.begin(), s.primitives.end(), [&](const Primitive& p) {
-        return p.polyhedron && p.polyhedron->half_spaces().size() >= least;
+        return p.polyhedron() && p.polyhedron()->half_spaces().size() >= least;
       });
     });
     EXPECT_EQ(smallest.primitives.size(), 1u);
-    return smallest.primitives[0].polyhedron->half_spaces().size();
+    return smallest.primitives[0].polyhedron()->half_spaces().size();
   };
   EXPECT_EQ(faces_of(1), 4u);  // a tetrahedron
   EXPECT_EQ(faces_of(5), 5u);  // a prism
@@ -92,10 +92,10 @@ TEST(Minimise, MeshesLoseVertices) {
   const auto smallest = [&](const auto& shows) {
     const Scene result = minimise(scene, [&](const Scene& s) {
       return std::any_of(s.primitives.begin(), s.primitives.end(),
-                         [&](const Primitive& p) { return p.mesh && shows(*p.mesh); });
+                         [&](const Primitive& p) { return p.mesh() && shows(*p.mesh()); });
     });
     EXPECT_EQ(result.primitives.size(), 1u);
-    return result.primitives[0].mesh;
+    return result.primitives[0].as<csgcore::MeshShape>().mesh;
   };
   const auto is_closed = [](const csgcore::TriangleMesh& mesh) {
     return mesh.is_closed() && mesh.vertices().size() >= 4;
@@ -157,7 +157,7 @@ TEST(SceneText, Meshes) {
             std::string::npos)
       << as_cpp(scene);
   // OpenSCAD's faces are clockwise as seen from outside.
-  const auto [a, b, c] = mesh.mesh->triangles()[0];
+  const auto [a, b, c] = mesh.mesh()->triangles()[0];
   const std::string face =
       "[" + std::to_string(a) + ", " + std::to_string(c) + ", " + std::to_string(b) + "]";
   EXPECT_NE(as_openscad(scene).find("translate([0, 0, 1]) polyhedron([[1.5, 1.5, 1.5], [-1.5, "

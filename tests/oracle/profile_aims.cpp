@@ -28,7 +28,7 @@ AimedRays::AimedRays(const csgcore::Primitive& primitive, const Vec3& pivot, std
     : primitive_(primitive),
       pivot_(pivot),
       random_(random),
-      size_(std::max(primitive.profile->half().x, primitive.profile->half().y)) {}
+      size_(std::max(primitive.profile()->half().x, primitive.profile()->half().y)) {}
 
 double AimedRays::power(double low, double high) {
   return std::pow(10, uniform(random_, low, high));
@@ -47,18 +47,19 @@ AimedRays::Place AimedRays::revolved(const Vec2& at, const Vec2& tangent) {
 
 AimedRays::Place AimedRays::extruded(const Vec2& at, const Vec2& tangent) {
   const double share = random_() % 3 ? uniform(random_, 0, 1) : static_cast<double>(random_() % 2);
-  const double growth = primitive_.r_top - primitive_.r_bottom;
-  const double height = primitive_.z_max - primitive_.z_min;
-  const double scale = primitive_.r_bottom + share * growth;
+  const auto& [profile, z_min, z_max, bottom, top] = primitive_.as<csgcore::ExtrusionShape>();
+  const double growth = top - bottom;
+  const double height = z_max - z_min;
+  const double scale = bottom + share * growth;
   const Vec3 leading{growth * at.x, growth * at.y, height}, along{tangent.x, tangent.y, 0};
-  return {{scale * at.x, scale * at.y, primitive_.z_min + share * height},
+  return {{scale * at.x, scale * at.y, z_min + share * height},
           glm::normalize(leading),
           along,
           glm::normalize(glm::cross(along, leading))};
 }
 
 AimedRays::Place AimedRays::next_place(bool is_vertex) {
-  const auto loops = primitive_.profile->loops();
+  const auto loops = primitive_.profile()->loops();
   const csgcore::ProfileLoop& loop = loops[random_() % loops.size()];
   const size_t i = random_() % loop.size();
   const Vec2 start = i == 0 ? loop.back().end : loop[i - 1].end;
@@ -66,8 +67,8 @@ AimedRays::Place AimedRays::next_place(bool is_vertex) {
   const auto [at, tangent] = csgcore::checks::edge_point(start, loop[i], share);
   // A curve whose control point is at its end has no tangent there.
   const Vec2 along = glm::length(tangent) > 0 ? glm::normalize(tangent) : Vec2(1, 0);
-  return primitive_.shape == csgcore::Shape::kRevolution ? revolved(at, along)
-                                                         : extruded(at, along);
+  return primitive_.shape() == csgcore::Shape::kRevolution ? revolved(at, along)
+                                                           : extruded(at, along);
 }
 
 Vec3 AimedRays::touching(const Place& place) {

@@ -16,21 +16,21 @@ constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 
 ProfileSurfaces::ProfileSurfaces(const csgcore::Primitive& primitive, const csgcore::Vec3& pivot)
     : primitive_(primitive),
-      figure_(*primitive.profile),
+      figure_(*primitive.profile()),
       world_to_local_(glm::inverse(csgcore::checks::LongMat3(primitive.local_to_world.linear))),
       pivot_(LongVec3(pivot) - LongVec3(primitive.local_to_world.translation)) {}
 
 Real ProfileSurfaces::distance(const LongVec3& point) const {
   const LongVec3 local = world_to_local_ * (point + pivot_);
-  const bool is_revolution = primitive_.shape == csgcore::Shape::kRevolution;
+  const bool is_revolution = primitive_.shape() == csgcore::Shape::kRevolution;
   return is_revolution ? from_revolution(local) : from_extrusion(local);
 }
 
 Real ProfileSurfaces::thickness() const {
   const LongVec2 size = figure_.max() - figure_.min();
-  const bool is_revolution = primitive_.shape == csgcore::Shape::kRevolution;
-  const Real height = is_revolution ? size.y : Real(primitive_.z_max) - primitive_.z_min;
-  const Real across = is_revolution ? size.x : std::min(size.x, size.y);
+  const auto* const extrusion = std::get_if<csgcore::ExtrusionShape>(&primitive_.solid);
+  const Real height = extrusion ? Real(extrusion->z_max) - extrusion->z_min : size.y;
+  const Real across = extrusion ? std::min(size.x, size.y) : size.x;
   return std::min(
       {in_world(across, {1, 0, 0}), in_world(across, {0, 1, 0}), in_world(height, {0, 0, 1})});
 }
@@ -69,10 +69,10 @@ Real ProfileSurfaces::from_revolution(const LongVec3& local) const {
 }
 
 Real ProfileSurfaces::from_extrusion(const LongVec3& local) const {
-  const Real growth =
-      (Real(primitive_.r_top) - primitive_.r_bottom) / (Real(primitive_.z_max) - primitive_.z_min);
-  const Real scale = primitive_.r_bottom + growth * (local.z - primitive_.z_min);
-  const Real beyond = std::max(primitive_.z_min - local.z, local.z - primitive_.z_max);
+  const auto& [profile, z_min, z_max, bottom, top] = primitive_.as<csgcore::ExtrusionShape>();
+  const Real growth = (Real(top) - bottom) / (Real(z_max) - z_min);
+  const Real scale = bottom + growth * (local.z - z_min);
+  const Real beyond = std::max(z_min - local.z, local.z - z_max);
   const Real from_cap = in_world(std::abs(beyond), {0, 0, 1});
   if (!(scale > 0)) return from_cap;
   const LongVec2 place = LongVec2(local) / scale;

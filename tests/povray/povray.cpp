@@ -48,7 +48,7 @@ Vec3 base_color(const Primitive& p, bool subtracted, const ReferenceColors& colo
 }
 
 std::string primitive_text(const Primitive& p, const Vec3& color) {
-  return test_support::test_kind_of(p.shape).as_povray(p) + " texture { pigment { rgb " +
+  return test_support::test_kind_of(p.shape()).as_povray(p) + " texture { pigment { rgb " +
          vector(color) + " } finish { Lit } } " + matrix(p.local_to_world) + " }\n";
 }
 

@@ -278,7 +278,7 @@ TEST(PovRayPhong, ColoursAreThoseOfTheFormula) {
   if (!installed()) GTEST_SKIP() << "povray is not installed";
   Scene scene;
   csgcore::Primitive ball;
-  ball.r_bottom = 1;
+  ball.solid = csgcore::SphereShape{1};
   ball.color = csgcore::Color{0.4f, 0.5f, 0.2f, 1};
   scene.primitives.push_back(ball);
   csgcore::CsgTreeBuilder builder;

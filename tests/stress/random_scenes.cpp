@@ -32,7 +32,7 @@ constexpr test_support::SizeRange kSizes{
 
 /// Returns the mesh without a tenth of its triangles, or without one.
 Primitive torn(const Primitive& primitive, Random& random) {
-  const csgcore::TriangleMesh& mesh = *primitive.mesh;
+  const csgcore::TriangleMesh& mesh = *primitive.mesh();
   test_support::MeshParts parts{{mesh.vertices().begin(), mesh.vertices().end()},
                                 {mesh.triangles().begin(), mesh.triangles().end()}};
   parts = test_support::with_holes(parts, 0.1, random);
@@ -72,7 +72,7 @@ Primitive random_primitive(Random& random, Leaves leaves) {
   constexpr size_t kMostTriangles = 100;
   for (;;) {
     const Primitive primitive = test_support::random_primitive(kind, sizes, {});
-    if (!is_mesh || primitive.mesh->triangles().size() <= kMostTriangles) return primitive;
+    if (!is_mesh || primitive.mesh()->triangles().size() <= kMostTriangles) return primitive;
   }
 }
 

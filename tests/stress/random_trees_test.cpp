@@ -150,7 +150,7 @@ TEST(RandomTreesPlanted, AWrongSignIsFoundAndMinimised) {
                        return [&](const View& view) {
                          Scene flipped = scene;
                          for (csgcore::Primitive& primitive : flipped.primitives) {
-                           if (primitive.shape != csgcore::Shape::kSphere) continue;
+                           if (primitive.shape() != csgcore::Shape::kSphere) continue;
                            primitive.local_to_world.translation.y *= -1;
                          }
                          return picture_by(tiles, flipped, view);

@@ -67,7 +67,9 @@ Family deep() {
 /// Makes primitive `b` share a face with primitive `a`.
 void plant(const Primitive& a, Primitive& b, std::mt19937& random) {
   const uint32_t id = b.id;
-  const bool both_frusta = a.shape == b.shape && a.shape == csgcore::Shape::kFrustum;
+  const auto* const frustum_a = std::get_if<csgcore::FrustumShape>(&a.solid);
+  auto* const frustum_b = std::get_if<csgcore::FrustumShape>(&b.solid);
+  const bool both_frusta = frustum_a && frustum_b;
   switch (random() % 5) {
     case 0:  // equal
       b = a;
@@ -78,27 +80,32 @@ void plant(const Primitive& a, Primitive& b, std::mt19937& random) {
     case 2:  // stacked, or equal but turned about z
       b.local_to_world = a.local_to_world;
       if (both_frusta) {
-        const double height = b.z_max - b.z_min;
-        b.z_min = a.z_max;
-        b.z_max = a.z_max + height;
-        b.r_bottom = a.r_top > 0 ? a.r_top : b.r_bottom + 0.5;
-      } else if (a.shape == csgcore::Shape::kSphere) {
+        const double height = frustum_b->z_max - frustum_b->z_min;
+        frustum_b->z_min = frustum_a->z_max;
+        frustum_b->z_max = frustum_a->z_max + height;
+        const double rim = frustum_a->r_top;
+        frustum_b->r_bottom = rim > 0 ? rim : frustum_b->r_bottom + 0.5;
+      } else if (a.shape() == csgcore::Shape::kSphere) {
         b = a;
         b.local_to_world = csgcore::compose(a.local_to_world, turn(20, 30, 40));
       }
       break;
     case 3:  // one top plane, parallel axes
       b.local_to_world = a.local_to_world;
-      if (both_frusta) b.z_max = a.z_max, b.z_min = std::min(b.z_min, a.z_max - 1);
+      if (both_frusta) {
+        frustum_b->z_max = frustum_a->z_max;
+        frustum_b->z_min = std::min(frustum_b->z_min, frustum_a->z_max - 1);
+      }
       b.local_to_world.translation = a.local_to_world.point({1.5, -0.5, 0});
       break;
     default:  // one wall, with other lengths
       if (both_frusta) {
-        const double slope = (a.r_top - a.r_bottom) / (a.z_max - a.z_min);
-        const double middle = 0.5 * a.z_min + 0.5 * a.z_max;
+        const auto& [z_min, z_max, r_bottom, r_top] = *frustum_a;
+        const double slope = (r_top - r_bottom) / (z_max - z_min);
+        const double middle = 0.5 * z_min + 0.5 * z_max;
         b = a;
-        b.z_min = middle;
-        b.r_bottom = a.r_bottom + slope * (middle - a.z_min);
+        b.as<csgcore::FrustumShape>().z_min = middle;
+        b.as<csgcore::FrustumShape>().r_bottom = r_bottom + slope * (middle - z_min);
       } else {
         b = a;
       }

@@ -27,7 +27,7 @@ LongVec3 exact_offset(const Vec3& a, double s, const Vec3& d, const Vec3& b) {
 }
 
 RayTarget::RayTarget(const Primitive& primitive, const Vec3& pivot)
-    : solid_(test_kind_of(primitive.shape).solid(primitive)),
+    : solid_(test_kind_of(primitive.shape()).solid(primitive)),
       world_to_local_(glm::inverse(LongMat3(primitive.local_to_world.linear))) {
   const Affine& map = primitive.local_to_world;
   for (int i = 0; i < 3; ++i) {
@@ -54,7 +54,7 @@ double furthest(const Primitive& p, const HalfSpace& half_space) {
   const Vec3& normal = half_space.normal;
   const Vec3 local = glm::transpose(p.local_to_world.linear) * normal;
   const double base = glm::dot(p.local_to_world.translation - half_space.point, normal);
-  return base + test_kind_of(p.shape).furthest(p, local);
+  return base + test_kind_of(p.shape()).furthest(p, local);
 }
 
 bool reaches(const Primitive& p, const HalfSpace& half_space) {

@@ -20,20 +20,13 @@ namespace {
 constexpr uint32_t kCenter = 32 * 65 + 32;  // the middle pixel of a 65×65 picture
 
 Primitive sphere(double radius, Vec3 at = Vec3(0.0), uint32_t id = 0) {
-  Primitive p;
-  p.r_bottom = radius;
-  p.local_to_world.translation = at;
+  Primitive p = make_sphere(radius, {Mat3(1.0), at});
   p.id = id;
   return p;
 }
 
 Primitive frustum(double z_min, double z_max, double r_bottom, double r_top, uint32_t id = 0) {
-  Primitive p;
-  p.shape = Shape::kFrustum;
-  p.z_min = z_min;
-  p.z_max = z_max;
-  p.r_bottom = r_bottom;
-  p.r_top = r_top;
+  Primitive p = make_frustum(z_min, z_max, r_bottom, r_top);
   p.id = id;
   return p;
 }
@@ -299,7 +292,7 @@ TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
     const Image image = reference_render(scene, view);
     // Whether a mesh contains a point is asked of all its triangles.
     const bool is_slow = std::any_of(scene.primitives.begin(), scene.primitives.end(),
-                                     [](const Primitive& p) { return p.mesh != nullptr; });
+                                     [](const Primitive& p) { return p.mesh() != nullptr; });
     for (uint32_t i = 0; i < image.id.size(); i += is_slow ? 251 : 37) {
       const double u = (2 * (i % 65 + 0.5) - 65) / 65 * view.half_height;
       const double v = (65 - 2 * (i / 65 + 0.5)) / 65 * view.half_height;

@@ -182,7 +182,7 @@ TEST(SagittaShell, HoldsWhatFacetsCutOff) {
           csgcore::make_frustum(-1, 2, 0, 1, map)}) {
       const Scene smooth_scene = union_of({primitive});
       const Scene faceted_scene = faceted(smooth_scene, fragments).value();
-      ASSERT_EQ(faceted_scene.primitives[0].shape, csgcore::Shape::kPolyhedron);
+      ASSERT_EQ(faceted_scene.primitives[0].shape(), csgcore::Shape::kPolyhedron);
       const csgcore::Solid smooth(csgcore::canonical_primitives(smooth_scene), smooth_scene.model);
       const csgcore::Solid facets(csgcore::canonical_primitives(faceted_scene),
                                   faceted_scene.model);
@@ -227,9 +227,9 @@ TEST(FacetedScene, SharesWhatIsEqualAndKeepsTheRest) {
   scene.primitives[1].id = 7;
   scene.primitives[1].local_to_world.translation = {1, 2, 3};
   const Scene result = faceted(scene, 6).value();
-  EXPECT_EQ(result.primitives[0].polyhedron, result.primitives[1].polyhedron);
-  EXPECT_NE(result.primitives[0].polyhedron, result.primitives[2].polyhedron);
-  EXPECT_EQ(result.primitives[3].polyhedron, scene.primitives[3].polyhedron);
+  EXPECT_EQ(result.primitives[0].polyhedron(), result.primitives[1].polyhedron());
+  EXPECT_NE(result.primitives[0].polyhedron(), result.primitives[2].polyhedron());
+  EXPECT_EQ(result.primitives[3].polyhedron(), scene.primitives[3].polyhedron());
   EXPECT_EQ(result.primitives[1].id, 7u);
   EXPECT_EQ(result.primitives[1].local_to_world.translation, Vec3(1, 2, 3));
 }

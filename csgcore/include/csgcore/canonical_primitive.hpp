@@ -2,6 +2,8 @@
 // kind implements these in a file of its own (src/primitives/primitive_kind.hpp).
 #pragma once
 
+#include <array>
+
 #include "csgcore/primitive.hpp"
 
 namespace csgcore {
@@ -41,7 +43,8 @@ struct alignas(64) CanonicalPrimitive {
   /// are computed from: a world coordinate or an offset from the centre.
   double canonical_error = 0;
   std::shared_ptr<const Polyhedron> polyhedron;  // null unless shape is kPolyhedron
-  /// The mesh or the profile of a primitive that has one: see mesh() and profile().
+  /// What else the kind needs: a mesh or a profile (see mesh() and profile()), or numbers of its
+  /// own.
   std::shared_ptr<const void> shared_shape;
   std::optional<Color> color;
   /// Bound of the part of canonical_error that the rounding of world_to_canonical causes, per unit
@@ -62,6 +65,10 @@ static_assert(sizeof(CanonicalPrimitive) == 320);
 
 /// Returns the canonical form of a primitive. Precondition: is_valid(primitive).
 CanonicalPrimitive canonicalize(const Primitive& primitive);
+
+/// Returns the two numbers of the canonical form that a shader of the kind is given: the radii of
+/// the enclosure, unless the kind has others.
+std::array<double, 2> shader_numbers(const CanonicalPrimitive& primitive);
 
 /// Classifies a cell, which is a closed, non-empty box in world space.
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);

@@ -41,4 +41,10 @@ Mesh frustum_mesh(double z_min, double z_max, double r_bottom, double r_top, int
 /// The mesh of OpenSCAD's cube. The box must not be empty.
 Mesh box_mesh(const Box& box);
 
+struct Primitive;
+/// The mesh of a primitive's local solid with that many fragments around, 3 or more: OpenSCAD's, as
+/// above, where it has the solid. Its faces are convex. It is empty where the solid is not round,
+/// or made of a profile.
+Mesh faceted_mesh(const Primitive& primitive, int fragments);
+
 }  // namespace csgcore

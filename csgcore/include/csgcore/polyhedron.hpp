@@ -10,6 +10,8 @@
 
 namespace csgcore {
 
+struct Primitive;
+
 /// An immutable convex solid in local coordinates, with data that make its tests against rays and
 /// cells cheap. Few of its faces are intersected with a ray, however many it has: the ray is first
 /// clipped by a quadric that encloses the solid, and then by faces in a hierarchy, whole branches
@@ -108,5 +110,9 @@ class Polyhedron {
 
 /// Returns whether both are null, or both have the same numbers.
 bool same_polyhedron(const Polyhedron* a, const Polyhedron* b);
+
+/// Returns the convex polyhedron that OpenSCAD makes of a primitive's local solid; a polyhedron
+/// itself. Null if there is none. `fragments` is 3 or more.
+std::shared_ptr<const Polyhedron> faceted_polyhedron(const Primitive& primitive, int fragments);
 
 }  // namespace csgcore

@@ -86,7 +86,7 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
     for (int j = 0; j < 3; ++j) columns[i][j] = Exact(unit) * Exact(map.linear[i][j]);
   }
   Target<Exact> target;
-  target.twin = &twin_of(primitive.shape);
+  target.twin = &twin_of(primitive.shape());
   target.to_local = {cross(columns[1], columns[2]), cross(columns[2], columns[0]),
                      cross(columns[0], columns[1])};
   const Exact determinant = dot(columns[0], target.to_local[0]);

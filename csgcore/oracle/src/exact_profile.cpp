@@ -191,11 +191,11 @@ class ExactProfile::Grid {
 
 ExactProfile::ExactProfile(const csgcore::Primitive& primitive, const Vector<Exact>& middle,
                            const Exact& magnification)
-    : is_revolution_(primitive.shape == csgcore::Shape::kRevolution),
-      fill_rule_(primitive.profile->fill_rule()),
+    : is_revolution_(primitive.shape() == csgcore::Shape::kRevolution),
+      fill_rule_(primitive.profile()->fill_rule()),
       middle_(middle),
       magnification_(magnification) {
-  const csgcore::Profile& profile = *primitive.profile;
+  const csgcore::Profile& profile = *primitive.profile();
   const Vec2 low = profile.center() - profile.half(), high = profile.center() + profile.half();
   size_ = profile.half().x + profile.half().y;
   for_each_edge(profile, [&](const Vec2& start, const ProfileEdge& edge) {
@@ -207,18 +207,19 @@ ExactProfile::ExactProfile(const csgcore::Primitive& primitive, const Vector<Exa
     least = {-high.x, -high.x, low.y};
     most = {high.x, high.x, high.y};
   } else {
-    height_ = Exact(primitive.z_max) - Exact(primitive.z_min);
-    bottom_scale_ = primitive.r_bottom;
-    growth_ = Exact(primitive.r_top) - Exact(primitive.r_bottom);
-    bottom_ = magnification * (Exact(primitive.z_min) - middle[2]);
-    top_ = magnification * (Exact(primitive.z_max) - middle[2]);
+    const auto& extrusion = primitive.as<csgcore::ExtrusionShape>();
+    const double a = extrusion.scale_bottom, b = extrusion.scale_top;
+    height_ = Exact(extrusion.z_max) - Exact(extrusion.z_min);
+    bottom_scale_ = a;
+    growth_ = Exact(b) - Exact(a);
+    bottom_ = magnification * (Exact(extrusion.z_min) - middle[2]);
+    top_ = magnification * (Exact(extrusion.z_max) - middle[2]);
     for (int i = 0; i < 2; ++i) {
-      const double a = primitive.r_bottom, b = primitive.r_top;
       least[i] = std::min(a * low[i], b * low[i]);
       most[i] = std::max(a * high[i], b * high[i]);
     }
-    least[2] = primitive.z_min;
-    most[2] = primitive.z_max;
+    least[2] = extrusion.z_min;
+    most[2] = extrusion.z_max;
   }
   double size = 0;
   for (int i = 0; i < 3; ++i) size += most[i] - least[i];

@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "csgcore/polyhedron.hpp"
+#include "oracle/nef_solid.hpp"
+
 namespace oracle {
 
 // The file of each kind defines its twin.
@@ -18,6 +21,19 @@ const ExactTwin& twin_of(csgcore::Shape shape) {
 #undef ORACLE_CASE
   }
   throw std::logic_error("a shape that is none");
+}
+
+std::vector<double*> ExactTwin::sizes(csgcore::Primitive&) const { return {}; }
+
+std::vector<csgcore::Primitive> ExactTwin::simpler(const csgcore::Primitive& primitive) const {
+  return {csgcore::make_sphere(1, primitive.local_to_world)};
+}
+
+FacetedSolid faceted(const csgcore::Primitive& primitive, int fragments) {
+  const auto* const mesh = std::get_if<csgcore::MeshShape>(&primitive.solid);
+  const auto polyhedron = csgcore::faceted_polyhedron(primitive, fragments);
+  return {polyhedron ? polyhedron->half_spaces() : std::vector<csgcore::HalfSpace>{},
+          primitive.local_to_world, mesh ? mesh->mesh : nullptr};
 }
 
 Walls<Exact> ExactTwin::walls(const Target<Exact>&, const Vector<Exact>&,

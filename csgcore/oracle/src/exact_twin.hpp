@@ -9,10 +9,6 @@
 #include "csgcore/primitive.hpp"
 #include "exact_primitive.hpp"
 
-namespace csgcore {
-struct HalfSpace;
-}
-
 namespace oracle {
 
 /// The exact twin of a kind. All functions take valid primitives of that kind.
@@ -36,19 +32,15 @@ class ExactTwin {
   virtual void merge_box(const csgcore::Vec3& point, const csgcore::Primitive& primitive,
                          csgcore::Box& box) const = 0;
 
-  /// Returns the solid's half-spaces in local space. Round solids get that many fragments.
-  virtual std::vector<csgcore::HalfSpace> half_spaces(const csgcore::Primitive& primitive,
-                                                      int fragments) const = 0;
-
   /// Returns the C++ expression that makes the primitive. `map` is the expression of its matrix.
   virtual std::string as_cpp(const csgcore::Primitive& primitive, const std::string& map) const = 0;
   /// Returns the OpenSCAD expression of the local solid.
   virtual std::string as_openscad(const csgcore::Primitive& primitive) const = 0;
 
-  /// Returns the primitive's sizes, which minimise() may change.
-  virtual std::vector<double*> sizes(csgcore::Primitive& primitive) const = 0;
-  /// Returns simpler primitives with the same matrix, the simplest one first.
-  virtual std::vector<csgcore::Primitive> simpler(const csgcore::Primitive& primitive) const = 0;
+  /// Returns the primitive's sizes, which minimise() may change; by default none.
+  virtual std::vector<double*> sizes(csgcore::Primitive& primitive) const;
+  /// Returns simpler primitives with the same matrix, the simplest one first; by default a sphere.
+  virtual std::vector<csgcore::Primitive> simpler(const csgcore::Primitive& primitive) const;
 
  protected:
   ~ExactTwin() = default;

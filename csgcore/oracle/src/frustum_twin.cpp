@@ -1,8 +1,6 @@
 // The exact twin of the frustum: cylinders, and cones with either end pointed.
 #include <cmath>
 
-#include "csgcore/facets.hpp"
-#include "csgcore/half_space.hpp"
 #include "disc_box.hpp"
 #include "exact_twin.hpp"
 #include "number_text.hpp"
@@ -10,6 +8,7 @@
 namespace oracle {
 namespace {
 
+using csgcore::FrustumShape;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
@@ -45,13 +44,15 @@ Walls<Number> walls_of(const Target<Number>& target, const Vector<Number>& o,
 class FrustumTwin final : public ExactTwin {
  public:
   Vector<Exact> middle(const Primitive& primitive) const override {
-    return {0, 0, Exact(0.5) * (Exact(primitive.z_min) + Exact(primitive.z_max))};
+    const auto& shape = primitive.as<FrustumShape>();
+    return {0, 0, Exact(0.5) * (Exact(shape.z_min) + Exact(shape.z_max))};
   }
   void add_surfaces(const Primitive& primitive, const Exact& magnification,
                     Target<Exact>& target) const override {
-    const Exact half(0.5), bottom(primitive.z_min), top(primitive.z_max);
-    const Exact r_bottom(primitive.r_bottom), r_top(primitive.r_top);
-    const Exact wall_scale = power_of_two(-std::ilogb(primitive.z_max - primitive.z_min));
+    const auto& shape = primitive.as<FrustumShape>();
+    const Exact half(0.5), bottom(shape.z_min), top(shape.z_max);
+    const Exact r_bottom(shape.r_bottom), r_top(shape.r_top);
+    const Exact wall_scale = power_of_two(-std::ilogb(shape.z_max - shape.z_min));
     const Exact half_height = magnification * half * (top - bottom);
     target.has_wall = true;
     target.growth = wall_scale * (r_top - r_bottom);
@@ -73,26 +74,23 @@ class FrustumTwin final : public ExactTwin {
     return {target.squared_height * point[0], target.squared_height * point[1],
             -target.growth * radius_at(target, point[2])};
   }
-  void merge_box(const Vec3& point, const Primitive& p, csgcore::Box& box) const override {
-    merge_disc(point, p.local_to_world, p.z_min, p.r_bottom, box);
-    merge_disc(point, p.local_to_world, p.z_max, p.r_top, box);
+  void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
+    const auto& p = primitive.as<FrustumShape>();
+    merge_disc(point, primitive.local_to_world, p.z_min, p.r_bottom, box);
+    merge_disc(point, primitive.local_to_world, p.z_max, p.r_top, box);
   }
-  std::vector<csgcore::HalfSpace> half_spaces(const Primitive& p, int fragments) const override {
-    return csgcore::half_spaces(
-        csgcore::faceted_frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments));
-  }
-  std::string as_cpp(const Primitive& p, const std::string& map) const override {
+  std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return "make_frustum(" + joined({p.z_min, p.z_max, p.r_bottom, p.r_top}) + ", " + map + ")";
   }
-  std::string as_openscad(const Primitive& p) const override {
+  std::string as_openscad(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return "translate([" + joined({0, 0, p.z_min}) + "]) cylinder(" +
            joined({p.z_max - p.z_min, p.r_bottom, p.r_top}) + ")";
   }
-  std::vector<double*> sizes(Primitive& p) const override {
+  std::vector<double*> sizes(Primitive& primitive) const override {
+    auto& p = primitive.as<FrustumShape>();
     return {&p.r_bottom, &p.r_top, &p.z_min, &p.z_max};
-  }
-  std::vector<Primitive> simpler(const Primitive& primitive) const override {
-    return {csgcore::make_sphere(1, primitive.local_to_world)};
   }
 };
 

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "csgcore/half_space.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "disc_box.hpp"
 #include "exact_mesh.hpp"
@@ -92,13 +91,14 @@ std::vector<std::shared_ptr<const TriangleMesh>> smaller_than(const TriangleMesh
 class MeshTwin final : public ExactTwin {
  public:
   Vector<Exact> middle(const Primitive& primitive) const override {
-    const Vec3 center = box_of(*primitive.mesh).center();
+    const Vec3 center = box_of(*primitive.mesh()).center();
     return {center.x, center.y, center.z};
   }
   void add_surfaces(const Primitive& primitive, const Exact& magnification,
                     Target<Exact>& target) const override {
-    target.mesh = std::make_shared<ExactMesh>(primitive.mesh, middle(primitive), magnification);
-    const Vec3 size = box_of(*primitive.mesh).size();
+    target.mesh = std::make_shared<ExactMesh>(primitive.as<csgcore::MeshShape>().mesh,
+                                              middle(primitive), magnification);
+    const Vec3 size = box_of(*primitive.mesh()).size();
     const double largest = std::max({size.x, size.y, size.z});
     // A flat mesh is taken for a slender one.
     constexpr double kLeastShare = 0x1p-20;
@@ -107,20 +107,19 @@ class MeshTwin final : public ExactTwin {
     target.weight = slender * slender;
   }
   void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
-    const TriangleMesh& mesh = *primitive.mesh;
+    const TriangleMesh& mesh = *primitive.mesh();
     for (const Triangle& triangle : mesh.triangles()) {
       for (const uint32_t vertex : triangle) {
         merge_point(point, primitive.local_to_world, mesh.vertices()[vertex], box);
       }
     }
   }
-  std::vector<csgcore::HalfSpace> half_spaces(const Primitive&, int) const override { return {}; }
   std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
     std::vector<std::string> vertices, triangles;
-    for (const std::string& text : vertex_texts(*primitive.mesh)) {
+    for (const std::string& text : vertex_texts(*primitive.mesh())) {
       vertices.push_back("{" + text + "}");
     }
-    for (const Triangle& triangle : primitive.mesh->triangles()) {
+    for (const Triangle& triangle : primitive.mesh()->triangles()) {
       triangles.push_back("{" + text_of(triangle, {0, 1, 2}) + "}");
     }
     return "make_mesh(std::make_shared<TriangleMesh>(std::vector<Vec3>{" + joined(vertices) +
@@ -128,24 +127,23 @@ class MeshTwin final : public ExactTwin {
   }
   std::string as_openscad(const Primitive& primitive) const override {
     std::vector<std::string> points, faces;
-    for (const std::string& text : vertex_texts(*primitive.mesh))
+    for (const std::string& text : vertex_texts(*primitive.mesh()))
       points.push_back("[" + text + "]");
     // OpenSCAD's faces are clockwise as seen from outside.
-    for (const Triangle& triangle : primitive.mesh->triangles()) {
+    for (const Triangle& triangle : primitive.mesh()->triangles()) {
       faces.push_back("[" + text_of(triangle, {0, 2, 1}) + "]");
     }
     return "polyhedron([" + joined(points) + "], [" + joined(faces) + "])";
   }
-  std::vector<double*> sizes(Primitive&) const override { return {}; }
   std::vector<Primitive> simpler(const Primitive& primitive) const override {
     const csgcore::Affine& map = primitive.local_to_world;
-    const csgcore::Box box = box_of(*primitive.mesh);
+    const csgcore::Box box = box_of(*primitive.mesh());
     std::vector<Primitive> result{csgcore::make_sphere(1, map)};
     const Vec3 size = box.size();
     if (size.x > 0 && size.y > 0 && size.z > 0) {
       result.push_back(csgcore::make_polyhedron(csgcore::Polyhedron::box(box), map));
     }
-    for (auto& mesh : smaller_than(*primitive.mesh)) {
+    for (auto& mesh : smaller_than(*primitive.mesh())) {
       if (!mesh->triangles().empty()) result.push_back(csgcore::make_mesh(std::move(mesh), map));
     }
     return result;

@@ -28,7 +28,7 @@ using Tokens = std::vector<CsgToken>;
 
 /// Returns all numbers of a primitive except those of the solid of a polyhedron or a mesh.
 std::vector<double*> numbers_of(Primitive& primitive) {
-  std::vector<double*> numbers = twin_of(primitive.shape).sizes(primitive);
+  std::vector<double*> numbers = twin_of(primitive.shape()).sizes(primitive);
   Affine& map = primitive.local_to_world;
   for (Vec3* column : {&map.translation, &map.linear[0], &map.linear[1], &map.linear[2]}) {
     for (int i = 0; i < 3; ++i) numbers.push_back(&(*column)[i]);
@@ -43,15 +43,15 @@ using Size = std::tuple<size_t, size_t, size_t, size_t, size_t>;
 Size size_of(const Scene& scene) {
   size_t shapes = 0, triangles = 0, half_spaces = 0, digits = 0;
   for (Primitive primitive : scene.primitives) {
-    shapes += primitive.shape != Shape::kSphere;
+    shapes += primitive.shape() != Shape::kSphere;
     const auto count_digits = [&](double number) {
       if (number != 0) digits += shortest_text(number).size();
     };
     for (const double* number : numbers_of(primitive)) count_digits(*number);
-    if (primitive.mesh) triangles += primitive.mesh->triangles().size();
-    if (!primitive.polyhedron) continue;
-    half_spaces += primitive.polyhedron->half_spaces().size();
-    for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
+    if (primitive.mesh()) triangles += primitive.mesh()->triangles().size();
+    if (!primitive.polyhedron()) continue;
+    half_spaces += primitive.polyhedron()->half_spaces().size();
+    for (const csgcore::HalfSpace& half_space : primitive.polyhedron()->half_spaces()) {
       for (int i = 0; i < 3; ++i) count_digits(half_space.normal[i]);
       count_digits(half_space.offset);
     }
@@ -152,7 +152,7 @@ class Minimiser {
   bool simplify_shapes() {
     for (size_t i = 0; i < best_.primitives.size(); ++i) {
       const Primitive primitive = best_.primitives[i];
-      for (const Primitive& simpler : twin_of(primitive.shape).simpler(primitive)) {
+      for (const Primitive& simpler : twin_of(primitive.shape()).simpler(primitive)) {
         if (take(simpler, i)) return true;
       }
     }

@@ -79,12 +79,12 @@ std::vector<std::shared_ptr<const Polyhedron>> simpler_than(const Polyhedron& po
 class PolyhedronTwin final : public ExactTwin {
  public:
   Vector<Exact> middle(const Primitive& primitive) const override {
-    const Vec3 center = vertex_box(*primitive.polyhedron).center();
+    const Vec3 center = vertex_box(*primitive.polyhedron()).center();
     return {center.x, center.y, center.z};
   }
   void add_surfaces(const Primitive& primitive, const Exact& magnification,
                     Target<Exact>& target) const override {
-    const Polyhedron& polyhedron = *primitive.polyhedron;
+    const Polyhedron& polyhedron = *primitive.polyhedron();
     const Vector<Exact> middle = this->middle(primitive);
     for (const HalfSpace& half_space : polyhedron.half_spaces()) {
       target.planes.push_back(scaled(half_space, middle, magnification));
@@ -94,26 +94,23 @@ class PolyhedronTwin final : public ExactTwin {
     target.weight = slender * slender;
   }
   void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
-    for (const Vec3& vertex : primitive.polyhedron->vertices()) {
+    for (const Vec3& vertex : primitive.polyhedron()->vertices()) {
       merge_point(point, primitive.local_to_world, vertex, box);
     }
   }
-  std::vector<HalfSpace> half_spaces(const Primitive& primitive, int) const override {
-    return primitive.polyhedron->half_spaces();
-  }
   std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
     std::vector<std::string> half_spaces, vertices;
-    for (const HalfSpace& h : primitive.polyhedron->half_spaces()) {
+    for (const HalfSpace& h : primitive.polyhedron()->half_spaces()) {
       half_spaces.push_back("{{" + coordinates(h.normal) + "}, " + shortest_text(h.offset) + "}");
     }
-    for (const Vec3& v : primitive.polyhedron->vertices()) {
+    for (const Vec3& v : primitive.polyhedron()->vertices()) {
       vertices.push_back("{" + coordinates(v) + "}");
     }
     return "make_polyhedron(std::make_shared<Polyhedron>(std::vector<HalfSpace>{" +
            joined(half_spaces) + "}, std::vector<Vec3>{" + joined(vertices) + "}), " + map + ")";
   }
   std::string as_openscad(const Primitive& primitive) const override {
-    const Polyhedron& polyhedron = *primitive.polyhedron;
+    const Polyhedron& polyhedron = *primitive.polyhedron();
     std::vector<std::string> points, faces;
     for (const Vec3& v : polyhedron.vertices()) points.push_back("[" + coordinates(v) + "]");
     for (const HalfSpace& half_space : polyhedron.half_spaces()) {
@@ -121,11 +118,10 @@ class PolyhedronTwin final : public ExactTwin {
     }
     return "polyhedron([" + joined(points) + "], [" + joined(faces) + "])";
   }
-  std::vector<double*> sizes(Primitive&) const override { return {}; }
   std::vector<Primitive> simpler(const Primitive& primitive) const override {
     const csgcore::Affine& map = primitive.local_to_world;
     std::vector<Primitive> result{csgcore::make_sphere(1, map)};
-    for (const auto& solid : simpler_than(*primitive.polyhedron)) {
+    for (const auto& solid : simpler_than(*primitive.polyhedron())) {
       result.push_back(csgcore::make_polyhedron(solid, map));
     }
     return result;

@@ -1,10 +1,11 @@
 #include "prepared_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <map>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "exact_mesh.hpp"
@@ -28,7 +29,7 @@ constexpr double kThicknessTolerance = 1e-9;
 /// Returns the primitive's box relative to a point. RoundingUp must be on.
 Box box_about(const Vec3& point, const Primitive& primitive) {
   Box box;
-  twin_of(primitive.shape).merge_box(point, primitive, box);
+  twin_of(primitive.shape()).merge_box(point, primitive, box);
   return box;
 }
 
@@ -71,21 +72,17 @@ Vec3 pivot_of(const Scene& scene) {
 }
 
 std::vector<uint32_t> find_alike(const Scene& scene) {
-  std::map<std::tuple<const csgcore::Polyhedron*, const csgcore::TriangleMesh*,
-                      const csgcore::Profile*, std::vector<double>>,
-           uint32_t>
-      first;
+  std::map<std::pair<csgcore::LocalSolid, std::array<double, 12>>, uint32_t> first;
   std::vector<uint32_t> result;
   for (const Primitive& p : scene.primitives) {
-    std::vector<double> key{double(p.shape), p.r_bottom, p.r_top, p.z_min, p.z_max};
     const Affine& map = p.local_to_world;
+    std::array<double, 12> numbers;
+    auto* next = numbers.begin();
     for (const Vec3& column : {map.linear[0], map.linear[1], map.linear[2], map.translation}) {
-      key.insert(key.end(), {column.x, column.y, column.z});
+      for (int i = 0; i < 3; ++i) *next++ = column[i];
     }
     const auto index = uint32_t(result.size());
-    result.push_back(
-        first.try_emplace({p.polyhedron.get(), p.mesh.get(), p.profile.get(), key}, index)
-            .first->second);
+    result.push_back(first.try_emplace({p.solid, numbers}, index).first->second);
   }
   return result;
 }
@@ -119,7 +116,7 @@ PreparedScene::PreparedScene(const Scene& prepared)
     if (!outside.names(i)) continue;
     boxed.push_back(i);
     // The sheets of an open mesh reach out of its box.
-    const TriangleMesh* const mesh = scene.primitives[i].mesh.get();
+    const TriangleMesh* const mesh = scene.primitives[i].mesh();
     const bool has_sheets = mesh && !mesh->is_closed();
     const Vec3 reach(has_sheets ? kSheetThickness * thickness / kSheetCosine : 0);
     named.push_back({unit * (all[i].min - reach), unit * (all[i].max + reach)});

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "csgcore/half_space.hpp"
 #include "disc_box.hpp"
 #include "exact_profile.hpp"
 #include "exact_twin.hpp"
@@ -12,10 +11,12 @@ namespace oracle {
 namespace {
 
 using csgcore::Affine;
+using csgcore::ExtrusionShape;
 using csgcore::Primitive;
 using csgcore::Profile;
 using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
+using csgcore::RevolutionShape;
 using csgcore::Vec2;
 using csgcore::Vec3;
 
@@ -95,17 +96,17 @@ class ProfileTwin : public ExactTwin {
     const Vec3 slender = std::min({size.x, size.y, size.z}) / size;
     target.weight = slender * slender;
   }
-  std::vector<csgcore::HalfSpace> half_spaces(const Primitive&, int) const override { return {}; }
   std::vector<Primitive> simpler(const Primitive& primitive) const override {
     std::vector<Primitive> result{csgcore::make_sphere(1, primitive.local_to_world)};
-    for (auto& profile : smaller_than(*primitive.profile)) {
+    for (auto& profile : smaller_than(*primitive.profile())) {
       result.push_back(primitive);
-      result.back().profile = std::move(profile);
+      profile_in(result.back()) = std::move(profile);
     }
     return result;
   }
 
  protected:
+  virtual std::shared_ptr<const Profile>& profile_in(Primitive& primitive) const = 0;
   /// The size of the local solid's box.
   virtual Vec3 size_of(const Primitive& primitive) const = 0;
 };
@@ -113,42 +114,49 @@ class ProfileTwin : public ExactTwin {
 class ExtrusionTwin final : public ProfileTwin {
  public:
   Vector<Exact> middle(const Primitive& primitive) const override {
-    const Vec2& center = primitive.profile->center();
-    const Exact scale = Exact(0.5) * (Exact(primitive.r_bottom) + Exact(primitive.r_top));
+    const auto& [profile, z_min, z_max, bottom, top] = primitive.as<ExtrusionShape>();
+    const Vec2& center = profile->center();
+    const Exact scale = Exact(0.5) * (Exact(bottom) + Exact(top));
     return {scale * Exact(center.x), scale * Exact(center.y),
-            Exact(0.5) * (Exact(primitive.z_min) + Exact(primitive.z_max))};
+            Exact(0.5) * (Exact(z_min) + Exact(z_max))};
   }
   void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
     const Affine& map = primitive.local_to_world;
+    const auto& [profile, z_min, z_max, bottom, top] = primitive.as<ExtrusionShape>();
     for (int axis = 0; axis < 3; ++axis) {
-      const Interval range = range_along(*primitive.profile, Interval(map.linear[0][axis]),
-                                         Interval(map.linear[1][axis]));
-      merge_range(point, map, primitive.z_min, axis, Interval(primitive.r_bottom) * range, box);
-      merge_range(point, map, primitive.z_max, axis, Interval(primitive.r_top) * range, box);
+      const Interval range =
+          range_along(*profile, Interval(map.linear[0][axis]), Interval(map.linear[1][axis]));
+      merge_range(point, map, z_min, axis, Interval(bottom) * range, box);
+      merge_range(point, map, z_max, axis, Interval(top) * range, box);
     }
   }
   std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
-    return "make_extrusion(" + cpp_of(*primitive.profile) + ", " +
-           joined(
-               std::vector{primitive.z_min, primitive.z_max, primitive.r_bottom, primitive.r_top}) +
-           ", " + map + ")";
+    const auto& [profile, z_min, z_max, bottom, top] = primitive.as<ExtrusionShape>();
+    return "make_extrusion(" + cpp_of(*profile) + ", " +
+           joined(std::vector{z_min, z_max, bottom, top}) + ", " + map + ")";
   }
-  std::string as_openscad(const Primitive& p) const override {
-    const bool is_pointed_below = p.r_bottom == 0;
-    const double from = is_pointed_below ? p.r_top : p.r_bottom;
-    const double to = is_pointed_below ? p.r_bottom : p.r_top;
+  std::string as_openscad(const Primitive& primitive) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    const bool is_pointed_below = p.scale_bottom == 0;
+    const double from = is_pointed_below ? p.scale_top : p.scale_bottom;
+    const double to = is_pointed_below ? p.scale_bottom : p.scale_top;
     return "translate([0, 0, " + shortest_text(is_pointed_below ? p.z_max : p.z_min) + "]) " +
            (is_pointed_below ? "mirror([0, 0, 1]) " : "") + "linear_extrude(" +
            shortest_text(p.z_max - p.z_min) + ", scale = " + shortest_text(to / from) + ") scale(" +
            shortest_text(from) + ") " + openscad_of(*p.profile);
   }
-  std::vector<double*> sizes(Primitive& p) const override {
-    return {&p.z_min, &p.z_max, &p.r_bottom, &p.r_top};
+  std::vector<double*> sizes(Primitive& primitive) const override {
+    auto& p = primitive.as<ExtrusionShape>();
+    return {&p.z_min, &p.z_max, &p.scale_bottom, &p.scale_top};
   }
 
  protected:
-  Vec3 size_of(const Primitive& p) const override {
-    const Vec2 half = std::max(p.r_bottom, p.r_top) * p.profile->half();
+  std::shared_ptr<const Profile>& profile_in(Primitive& primitive) const override {
+    return primitive.as<ExtrusionShape>().profile;
+  }
+  Vec3 size_of(const Primitive& primitive) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    const Vec2 half = std::max(p.scale_bottom, p.scale_top) * p.profile->half();
     return {2 * half.x, 2 * half.y, p.z_max - p.z_min};
   }
 };
@@ -156,7 +164,7 @@ class ExtrusionTwin final : public ProfileTwin {
 class RevolutionTwin final : public ProfileTwin {
  public:
   Vector<Exact> middle(const Primitive& primitive) const override {
-    return {0, 0, primitive.profile->center().y};
+    return {0, 0, primitive.profile()->center().y};
   }
   void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
     const Affine& map = primitive.local_to_world;
@@ -164,23 +172,26 @@ class RevolutionTwin final : public ProfileTwin {
       const Interval lateral = CGAL::sqrt(CGAL::square(Interval(map.linear[0][axis])) +
                                           CGAL::square(Interval(map.linear[1][axis])));
       for (const Interval& x : {lateral, -lateral}) {
-        const Interval range = range_along(*primitive.profile, x, Interval(map.linear[2][axis]));
+        const Interval range = range_along(*primitive.profile(), x, Interval(map.linear[2][axis]));
         merge_range(point, map, 0, axis, range, box);
       }
     }
   }
   std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
-    return "make_revolution(" + cpp_of(*primitive.profile) + ", " + map + ")";
+    return "make_revolution(" + cpp_of(*primitive.profile()) + ", " + map + ")";
   }
   std::string as_openscad(const Primitive& primitive) const override {
-    return "rotate_extrude() " + openscad_of(*primitive.profile);
+    return "rotate_extrude() " + openscad_of(*primitive.profile());
   }
-  std::vector<double*> sizes(Primitive&) const override { return {}; }
 
  protected:
-  Vec3 size_of(const Primitive& p) const override {
-    const double radius = p.profile->center().x + p.profile->half().x;
-    return {2 * radius, 2 * radius, 2 * p.profile->half().y};
+  std::shared_ptr<const Profile>& profile_in(Primitive& primitive) const override {
+    return primitive.as<RevolutionShape>().profile;
+  }
+  Vec3 size_of(const Primitive& primitive) const override {
+    const Profile& profile = *primitive.profile();
+    const double radius = profile.center().x + profile.half().x;
+    return {2 * radius, 2 * radius, 2 * profile.half().y};
   }
 };
 

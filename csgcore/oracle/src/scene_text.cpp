@@ -60,7 +60,7 @@ struct ScadTree {
   }
   void primitive(uint32_t index) {
     const Primitive& p = scene.primitives[index];
-    line(scad_of(p.local_to_world) + twin_of(p.shape).as_openscad(p) + ";");
+    line(scad_of(p.local_to_world) + twin_of(p.shape()).as_openscad(p) + ";");
   }
   void close() {
     --depth;
@@ -77,7 +77,7 @@ std::string as_cpp(const Scene& scene) {
   std::string text = "Scene scene;\nscene.primitives = {";
   for (size_t i = 0; i < scene.primitives.size(); ++i) {
     const Primitive& p = scene.primitives[i];
-    text += (i > 0 ? ",\n    " : "\n    ") + twin_of(p.shape).as_cpp(p, cpp_of(p.local_to_world));
+    text += (i > 0 ? ",\n    " : "\n    ") + twin_of(p.shape()).as_cpp(p, cpp_of(p.local_to_world));
   }
   text += "};\nCsgTreeBuilder builder;\n";
   CppTree tree;

@@ -1,6 +1,4 @@
 // The exact twin of the sphere.
-#include "csgcore/facets.hpp"
-#include "csgcore/half_space.hpp"
 #include "disc_box.hpp"
 #include "exact_twin.hpp"
 #include "number_text.hpp"
@@ -10,6 +8,8 @@ namespace {
 
 using csgcore::Primitive;
 using csgcore::Vec3;
+
+double radius_of(const Primitive& sphere) { return sphere.as<csgcore::SphereShape>().radius; }
 
 template <class Number>
 Walls<Number> walls_of(const Target<Number>& target, const Vector<Number>& o,
@@ -31,7 +31,7 @@ class SphereTwin final : public ExactTwin {
   void add_surfaces(const Primitive& primitive, const Exact& magnification,
                     Target<Exact>& target) const override {
     target.has_wall = true;
-    target.radius = magnification * Exact(primitive.r_bottom);
+    target.radius = magnification * Exact(radius_of(primitive));
     target.weight = Vec3(1.0);
   }
   Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
@@ -47,19 +47,17 @@ class SphereTwin final : public ExactTwin {
     return point;
   }
   void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
-    merge_ball(point, primitive.local_to_world, primitive.r_bottom, box);
-  }
-  std::vector<csgcore::HalfSpace> half_spaces(const Primitive& primitive,
-                                              int fragments) const override {
-    return csgcore::half_spaces(csgcore::faceted_sphere(primitive.r_bottom, fragments));
+    merge_ball(point, primitive.local_to_world, radius_of(primitive), box);
   }
   std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
-    return "make_sphere(" + shortest_text(primitive.r_bottom) + ", " + map + ")";
+    return "make_sphere(" + shortest_text(radius_of(primitive)) + ", " + map + ")";
   }
   std::string as_openscad(const Primitive& primitive) const override {
-    return "sphere(" + shortest_text(primitive.r_bottom) + ")";
+    return "sphere(" + shortest_text(radius_of(primitive)) + ")";
   }
-  std::vector<double*> sizes(Primitive& primitive) const override { return {&primitive.r_bottom}; }
+  std::vector<double*> sizes(Primitive& primitive) const override {
+    return {&primitive.as<csgcore::SphereShape>().radius};
+  }
   std::vector<Primitive> simpler(const Primitive&) const override { return {}; }
 };
 

@@ -77,7 +77,7 @@ struct alignas(64) PacketHits {
   /// Lanes whose hit the range alone cannot decide; none unless trace_packet_in_range() traced
   /// them.
   LaneMask undecided = 0;
-  LaneMask on_cap = 0;      // the `on_cap` with which the hit's normal is found (kind_rays-inl.hpp)
+  LaneMask on_cap = 0;      // the `on_cap` with which the hit's normal is found (primitive-inl.hpp)
   LaneMask eye_inside = 0;  // of all traced lanes, those whose eye lies in the solid
   alignas(64) double t[kPacketRays];
   double normal[3][kPacketRays];  // unit, outward of the solid

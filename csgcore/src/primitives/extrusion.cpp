@@ -17,22 +17,31 @@ namespace {
 class ExtrusionKind final : public PrimitiveKind {
  public:
   bool has_valid_shape(const Primitive& primitive) const override {
-    return primitive.profile != nullptr && primitive.profile->has_area() &&
-           kind_of(Shape::kFrustum).has_valid_shape(primitive);
+    const auto& [profile, z_min, z_max, bottom, top] = primitive.as<ExtrusionShape>();
+    return profile != nullptr && profile->has_area() &&
+           kind_of(Shape::kFrustum).has_valid_shape(make_frustum(z_min, z_max, bottom, top));
+  }
+
+  bool has_same_solid(const Primitive& a, const Primitive& b) const override {
+    ExtrusionShape with_profile_of_b = a.as<ExtrusionShape>();
+    with_profile_of_b.profile = b.as<ExtrusionShape>().profile;
+    return with_profile_of_b == b.as<ExtrusionShape>() && same_profile(a.profile(), b.profile());
+  }
+  bool has_same_form(const CanonicalPrimitive& a, const CanonicalPrimitive& b) const override {
+    return same_profile(a.profile(), b.profile());
   }
 
   CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
-    const Profile& profile = *primitive.profile;
+    const auto& [shared, z_min, z_max, bottom, top] = primitive.as<ExtrusionShape>();
+    const Profile& profile = *shared;
     CanonicalPrimitive result;
-    result.shape = Shape::kExtrusion;
     result.enclosure = Shape::kFrustum;
-    result.is_convex = false;
-    result.shared_shape = primitive.profile;
-    const double scale = std::max(primitive.r_bottom, primitive.r_top);
-    const double half_height = 0.5 * (primitive.z_max - primitive.z_min);
-    const double middle = 0.5 * primitive.z_min + 0.5 * primitive.z_max;
-    result.radius_mid = 0.5 * (primitive.r_bottom / scale + primitive.r_top / scale);
-    result.radius_slope = 0.5 * (primitive.r_top / scale - primitive.r_bottom / scale);
+    result.shared_shape = shared;
+    const double scale = std::max(bottom, top);
+    const double half_height = 0.5 * (z_max - z_min);
+    const double middle = 0.5 * z_min + 0.5 * z_max;
+    result.radius_mid = 0.5 * (bottom / scale + top / scale);
+    result.radius_slope = 0.5 * (top / scale - bottom / scale);
     // The profile's middle, scaled, leads along a line that leans if it is not on the axis.
     const Vec2 place = scale * profile.center();
     const Vec2 half = scale * profile.reach() * profile.half();
@@ -42,8 +51,13 @@ class ExtrusionKind final : public PrimitiveKind {
     result.canonical_to_world = Mat3{linear[0] * half.x, linear[1] * half.y,
                                      linear * Vec3{slope * place.x, slope * place.y, half_height}};
     result.world_to_canonical = inverse(result.canonical_to_world);
-    result.bounds = bounds_of(result);
     return result;
+  }
+
+  /// The radii of the figure's scale.
+  std::array<double, 2> shader_numbers(const CanonicalPrimitive& primitive) const override {
+    const double unit = 1 / primitive.profile()->reach();
+    return {unit * primitive.radius_mid, unit * primitive.radius_slope};
   }
 
   Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) const override {
@@ -92,18 +106,5 @@ constexpr ExtrusionKind kExtrusionKind;
 }  // namespace
 
 constinit const PrimitiveKind& Extrusion_kind = kExtrusionKind;
-
-Primitive make_extrusion(std::shared_ptr<const Profile> profile, double z_min, double z_max,
-                         double scale_bottom, double scale_top, const Affine& local_to_world) {
-  Primitive primitive;
-  primitive.shape = Shape::kExtrusion;
-  primitive.profile = std::move(profile);
-  primitive.z_min = z_min;
-  primitive.z_max = z_max;
-  primitive.r_bottom = scale_bottom;
-  primitive.r_top = scale_top;
-  primitive.local_to_world = local_to_world;
-  return primitive;
-}
 
 }  // namespace csgcore

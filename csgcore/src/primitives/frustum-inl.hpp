@@ -200,7 +200,7 @@ constexpr double kApex2 = 1e-200;
 
 }  // namespace frustum_rays
 
-/// See kind_rays-inl.hpp. An end lies on a cap or on the wall.
+/// See primitive-inl.hpp. An end lies on a cap or on the wall.
 struct FrustumRays {
   static constexpr bool kHasCaps = true;
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "csgcore/polyhedron.hpp"
 #include "primitives/primitive_kind.hpp"
 
 namespace csgcore {
@@ -100,20 +101,30 @@ Vec3 most_stretched_across(const Vec3& row_x, const Vec3& row_y) {
 class FrustumKind final : public PrimitiveKind {
  public:
   bool has_valid_shape(const Primitive& primitive) const override {
-    const double height = primitive.z_max - primitive.z_min;
-    return std::isfinite(height) && height > 0 && std::isfinite(primitive.r_bottom) &&
-           std::isfinite(primitive.r_top) && primitive.r_bottom >= 0 && primitive.r_top >= 0 &&
-           primitive.r_bottom + primitive.r_top > 0;
+    const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<FrustumShape>();
+    const double height = z_max - z_min;
+    return std::isfinite(height) && height > 0 && std::isfinite(r_bottom) && std::isfinite(r_top) &&
+           r_bottom >= 0 && r_top >= 0 && r_bottom + r_top > 0;
+  }
+  Mesh faceted_mesh(const Primitive& primitive, int fragments) const override {
+    const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<FrustumShape>();
+    return frustum_mesh(z_min, z_max, r_bottom, r_top, fragments);
+  }
+  std::shared_ptr<const Polyhedron> faceted_polyhedron(const Primitive& primitive,
+                                                       int fragments) const override {
+    const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<FrustumShape>();
+    return Polyhedron::frustum(z_min, z_max, r_bottom, r_top, fragments);
   }
 
   CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
     CanonicalPrimitive result;
-    result.shape = result.enclosure = Shape::kFrustum;
-    const double radius = std::max(primitive.r_bottom, primitive.r_top);
-    const double half_height = 0.5 * (primitive.z_max - primitive.z_min);
-    const double middle = 0.5 * primitive.z_min + 0.5 * primitive.z_max;
-    result.radius_mid = 0.5 * (primitive.r_bottom / radius + primitive.r_top / radius);
-    result.radius_slope = 0.5 * (primitive.r_top / radius - primitive.r_bottom / radius);
+    result.enclosure = Shape::kFrustum;
+    const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<FrustumShape>();
+    const double radius = std::max(r_bottom, r_top);
+    const double half_height = 0.5 * (z_max - z_min);
+    const double middle = 0.5 * z_min + 0.5 * z_max;
+    result.radius_mid = 0.5 * (r_bottom / radius + r_top / radius);
+    result.radius_slope = 0.5 * (r_top / radius - r_bottom / radius);
     const Mat3& linear = primitive.local_to_world.linear;
     result.center = primitive.local_to_world.point({0, 0, middle});
     result.canonical_to_world =
@@ -224,17 +235,5 @@ constexpr FrustumKind kFrustumKind;
 }  // namespace
 
 constinit const PrimitiveKind& Frustum_kind = kFrustumKind;
-
-Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top,
-                       const Affine& local_to_world) {
-  Primitive primitive;
-  primitive.shape = Shape::kFrustum;
-  primitive.z_min = z_min;
-  primitive.z_max = z_max;
-  primitive.r_bottom = r_bottom;
-  primitive.r_top = r_top;
-  primitive.local_to_world = local_to_world;
-  return primitive;
-}
 
 }  // namespace csgcore

@@ -50,21 +50,25 @@ bool may_meet(const TriangleMesh& mesh, uint32_t triangle, const CanonicalCell& 
 class MeshKind final : public PrimitiveKind {
  public:
   bool has_valid_shape(const Primitive& primitive) const override {
-    return primitive.mesh != nullptr && !primitive.mesh->triangles().empty();
+    return primitive.mesh() != nullptr && !primitive.mesh()->triangles().empty();
+  }
+
+  bool has_same_solid(const Primitive& a, const Primitive& b) const override {
+    return same_mesh(a.mesh(), b.mesh());
+  }
+  bool has_same_form(const CanonicalPrimitive& a, const CanonicalPrimitive& b) const override {
+    return same_mesh(a.mesh(), b.mesh());
   }
 
   CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
-    const TriangleMesh& mesh = *primitive.mesh;
+    const TriangleMesh& mesh = *primitive.mesh();
     const TriangleMesh::Canonical& canonical = mesh.canonical();
     CanonicalPrimitive result;
-    result.shape = Shape::kMesh;
-    result.is_convex = false;
-    result.shared_shape = primitive.mesh;
+    result.shared_shape = primitive.as<MeshShape>().mesh;
     const Mat3& linear = primitive.local_to_world.linear;
     result.center = primitive.local_to_world.point(canonical.center);
     for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
     result.world_to_canonical = inverse(result.canonical_to_world);
-    result.bounds = bounds_of(result);
     return result;
   }
 
@@ -122,13 +126,5 @@ constexpr MeshKind kMeshKind;
 }  // namespace
 
 constinit const PrimitiveKind& Mesh_kind = kMeshKind;
-
-Primitive make_mesh(std::shared_ptr<const TriangleMesh> mesh, const Affine& local_to_world) {
-  Primitive primitive;
-  primitive.shape = Shape::kMesh;
-  primitive.mesh = std::move(mesh);
-  primitive.local_to_world = local_to_world;
-  return primitive;
-}
 
 }  // namespace csgcore

@@ -174,7 +174,7 @@ HWY_NOINLINE FacedSegment<D> box_faces(D d, const CanonicalPrimitive& primitive,
 
 }  // namespace polyhedron_rays
 
-/// See kind_rays-inl.hpp. An end is "on a cap" if the ray leaves there: the normal is that of the
+/// See primitive-inl.hpp. An end is "on a cap" if the ray leaves there: the normal is that of the
 /// face that cuts this end.
 struct PolyhedronRays {
   static constexpr bool kHasCaps = true;

@@ -24,23 +24,32 @@ constexpr size_t kMostFaces = 64;
 class PolyhedronKind final : public PrimitiveKind {
  public:
   bool has_valid_shape(const Primitive& primitive) const override {
-    return primitive.polyhedron != nullptr;
+    return primitive.polyhedron() != nullptr;
+  }
+
+  std::shared_ptr<const Polyhedron> faceted_polyhedron(const Primitive& primitive,
+                                                       int) const override {
+    return primitive.as<PolyhedronShape>().polyhedron;
+  }
+  bool has_same_solid(const Primitive& a, const Primitive& b) const override {
+    return same_polyhedron(a.polyhedron(), b.polyhedron());
+  }
+  bool has_same_form(const CanonicalPrimitive& a, const CanonicalPrimitive& b) const override {
+    return same_polyhedron(a.polyhedron.get(), b.polyhedron.get());
   }
 
   CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
-    const Polyhedron& polyhedron = *primitive.polyhedron;
+    const Polyhedron& polyhedron = *primitive.polyhedron();
     const Polyhedron::Canonical& canonical = polyhedron.canonical();
     CanonicalPrimitive result;
-    result.shape = Shape::kPolyhedron;
     result.enclosure = canonical.in_frustum ? Shape::kFrustum : Shape::kSphere;
     result.radius_mid = canonical.radius_mid;
     result.radius_slope = canonical.radius_slope;
-    result.polyhedron = primitive.polyhedron;
+    result.polyhedron = primitive.as<PolyhedronShape>().polyhedron;
     const Mat3& linear = primitive.local_to_world.linear;
     result.center = primitive.local_to_world.point(canonical.center);
     for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
     result.world_to_canonical = inverse(result.canonical_to_world);
-    result.bounds = bounds_of(result);
     return result;
   }
 
@@ -115,14 +124,5 @@ constexpr PolyhedronKind kPolyhedronKind;
 }  // namespace
 
 constinit const PrimitiveKind& Polyhedron_kind = kPolyhedronKind;
-
-Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
-                          const Affine& local_to_world) {
-  Primitive primitive;
-  primitive.shape = Shape::kPolyhedron;
-  primitive.polyhedron = std::move(polyhedron);
-  primitive.local_to_world = local_to_world;
-  return primitive;
-}
 
 }  // namespace csgcore

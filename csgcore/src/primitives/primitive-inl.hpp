@@ -1,4 +1,13 @@
-// The rays of a primitive of any kind. Included once per instruction set.
+// The rays of a convex primitive of any kind. Included once per instruction set.
+//
+// A kind called Name has a struct NameRays with
+//   kHasCaps: whether the normal at an end depends on more than its position: a frustum's end lies
+//     on the wall or on a cap;
+//   segment(d, primitive, center, rays): the rays' segments within the primitive, and which of
+//     their ends lie on a cap;
+//   normal(d, primitive, center, rays, t, on_cap): the primitive's outward unit normal at t, where
+//     the ray crosses its surface.
+// `center` is the primitive's centre relative to the rays' pivot.
 #if defined(CSGCORE_PRIMITIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_PRIMITIVE_INL_HPP
 #undef CSGCORE_PRIMITIVE_INL_HPP
@@ -8,8 +17,10 @@
 
 #include <hwy/cache_control.h>
 
-#include "primitives/kind_rays-inl.hpp"
+#include "primitives/frustum-inl.hpp"
 #include "primitives/packet_segments.hpp"
+#include "primitives/polyhedron-inl.hpp"
+#include "primitives/sphere-inl.hpp"
 #include "rays/frame_rays.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -74,6 +74,21 @@ float rounded_up(double bound) {
   return std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity());
 }
 
+/// Returns the bounds of a primitive whose centre and maps are set, by its support.
+Box bounds_of(const PrimitiveKind& kind, const CanonicalPrimitive& primitive) {
+  // The support along a world axis is that of the canonical solid along the axis' row of the map.
+  const Mat3 rows = glm::transpose(primitive.canonical_to_world);
+  Box bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto reach = [&](const Vec3& direction) {
+      return glm::dot(direction, kind.support(primitive, direction));
+    };
+    bounds.min[axis] = primitive.center[axis] - reach(-rows[axis]);
+    bounds.max[axis] = primitive.center[axis] + reach(rows[axis]);
+  }
+  return bounds;
+}
+
 /// Returns a bound of the rounding of a cell's canonical coordinates. `terms` bounds the world
 /// coordinates that they are computed from. A quick bound is enough if it is small; maps that are
 /// nearly singular need the sharp one.
@@ -88,6 +103,24 @@ double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell&
 }
 
 }  // namespace
+
+Mesh PrimitiveKind::faceted_mesh(const Primitive&, int) const { return {}; }
+
+std::shared_ptr<const Polyhedron> PrimitiveKind::faceted_polyhedron(const Primitive&, int) const {
+  return nullptr;
+}
+
+bool PrimitiveKind::has_same_solid(const Primitive& a, const Primitive& b) const {
+  return a.solid == b.solid;
+}
+
+bool PrimitiveKind::has_same_form(const CanonicalPrimitive& a, const CanonicalPrimitive& b) const {
+  return a.polyhedron == b.polyhedron && a.shared_shape == b.shared_shape;
+}
+
+std::array<double, 2> PrimitiveKind::shader_numbers(const CanonicalPrimitive& primitive) const {
+  return {primitive.radius_mid, primitive.radius_slope};
+}
 
 Vec3 PrimitiveKind::support(const CanonicalPrimitive& primitive, const Vec3& direction) const {
   return kind_of(primitive.enclosure).support(primitive, direction);
@@ -111,22 +144,8 @@ Vec3 PrimitiveKind::outwards(const CanonicalPrimitive&, const Vec3&) const { ret
 
 bool PrimitiveKind::is_thinner(const CanonicalPrimitive&, double) const { return false; }
 
-Box PrimitiveKind::bounds_of(const CanonicalPrimitive& primitive) const {
-  // The support along a world axis is that of the canonical solid along the axis' row of the map.
-  const Mat3 rows = glm::transpose(primitive.canonical_to_world);
-  Box bounds;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto reach = [&](const Vec3& direction) {
-      return glm::dot(direction, support(primitive, direction));
-    };
-    bounds.min[axis] = primitive.center[axis] - reach(-rows[axis]);
-    bounds.max[axis] = primitive.center[axis] + reach(rows[axis]);
-  }
-  return bounds;
-}
-
 bool has_valid_shape(const Primitive& primitive) {
-  return kind_of(primitive.shape).has_valid_shape(primitive);
+  return kind_of(primitive.shape()).has_valid_shape(primitive);
 }
 
 bool is_valid(const Primitive& primitive) {
@@ -139,7 +158,11 @@ bool is_valid(const Primitive& primitive) {
 }
 
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
-  CanonicalPrimitive result = kind_of(primitive.shape).canonicalize(primitive);
+  const PrimitiveKind& kind = kind_of(primitive.shape());
+  CanonicalPrimitive result = kind.canonicalize(primitive);
+  result.shape = primitive.shape();
+  result.is_convex = is_convex(result.shape);
+  if (result.bounds.empty()) result.bounds = bounds_of(kind, result);
   const Mat3& map = result.world_to_canonical;
   result.canonical_stretch =
       std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
@@ -151,6 +174,18 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
   result.cut_faces = primitive.cut_faces;
   result.id = primitive.id;
   return result;
+}
+
+Mesh faceted_mesh(const Primitive& primitive, int fragments) {
+  return kind_of(primitive.shape()).faceted_mesh(primitive, fragments);
+}
+
+std::shared_ptr<const Polyhedron> faceted_polyhedron(const Primitive& primitive, int fragments) {
+  return kind_of(primitive.shape()).faceted_polyhedron(primitive, fragments);
+}
+
+std::array<double, 2> shader_numbers(const CanonicalPrimitive& primitive) {
+  return kind_of(primitive.shape).shader_numbers(primitive);
 }
 
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell) {

@@ -1,6 +1,6 @@
 // The interface that each kind of primitive implements, in a file of its own (sphere.cpp,
 // frustum.cpp, polyhedron_primitive.cpp). Another file implements its rays (sphere-inl.hpp and so
-// on: kind_rays-inl.hpp lists them). CSGCORE_FOR_EACH_SHAPE (csgcore/shape.hpp) lists the kinds,
+// on: primitive-inl.hpp lists them). CSGCORE_FOR_EACH_SHAPE (csgcore/shape.hpp) lists the kinds,
 // and a kind without an implementation does not link.
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "csgcore/canonical_primitive.hpp"
+#include "csgcore/facets.hpp"
 
 namespace csgcore {
 
@@ -18,9 +19,22 @@ class PrimitiveKind {
  public:
   /// Implements has_valid_shape() of primitive.hpp.
   virtual bool has_valid_shape(const Primitive& primitive) const = 0;
-  /// Fills the members that depend on the kind: shape and enclosure, the radii, the centre, the
-  /// maps and the bounds.
+  /// Implements faceted_mesh() of facets.hpp; by default it is empty.
+  virtual Mesh faceted_mesh(const Primitive& primitive, int fragments) const;
+  /// Implements faceted_polyhedron() of polyhedron.hpp; by default there is none.
+  virtual std::shared_ptr<const Polyhedron> faceted_polyhedron(const Primitive& primitive,
+                                                               int fragments) const;
+  /// Returns whether two valid primitives have equal local solids; by default, whether their
+  /// numbers and what they point to are the same. Equal ones may be taken for different ones.
+  virtual bool has_same_solid(const Primitive& a, const Primitive& b) const;
+  /// Does the same for canonical forms with equal maps and radii; by default, whether they share
+  /// what they point to.
+  virtual bool has_same_form(const CanonicalPrimitive& a, const CanonicalPrimitive& b) const;
+  /// Fills the members that depend on the kind: the enclosure, the radii, the centre and the
+  /// maps, and the bounds if support() would not give them.
   virtual CanonicalPrimitive canonicalize(const Primitive& primitive) const = 0;
+  /// Implements shader_numbers().
+  virtual std::array<double, 2> shader_numbers(const CanonicalPrimitive& primitive) const;
   virtual bool contains(const CanonicalPrimitive& primitive, const Vec3& point) const = 0;
 
   /// Returns a point that lies at least as far along the direction as all of the solid; by default,
@@ -44,8 +58,6 @@ class PrimitiveKind {
 
  protected:
   ~PrimitiveKind() = default;
-  /// Returns the bounds of a primitive whose centre and maps are set, by support().
-  Box bounds_of(const CanonicalPrimitive& primitive) const;
 };
 
 const PrimitiveKind& kind_of(Shape shape);

@@ -19,25 +19,30 @@ constexpr double kOnAxis = 1e-15;
 class RevolutionKind final : public PrimitiveKind {
  public:
   bool has_valid_shape(const Primitive& primitive) const override {
-    const Profile* const profile = primitive.profile.get();
+    const Profile* const profile = primitive.profile();
     return profile != nullptr && profile->has_area() &&
            profile->min_x() >= -kOnAxis * profile->half().x;
   }
 
+  bool has_same_solid(const Primitive& a, const Primitive& b) const override {
+    return same_profile(a.profile(), b.profile());
+  }
+  bool has_same_form(const CanonicalPrimitive& a, const CanonicalPrimitive& b) const override {
+    return same_profile(a.profile(), b.profile());
+  }
+
   CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
-    const Profile& profile = *primitive.profile;
+    const std::shared_ptr<const Profile>& shared = primitive.as<RevolutionShape>().profile;
+    const Profile& profile = *shared;
     CanonicalPrimitive result;
-    result.shape = Shape::kRevolution;
     result.enclosure = Shape::kFrustum;
-    result.is_convex = false;
-    result.shared_shape = primitive.profile;
+    result.shared_shape = shared;
     const double radius = profile.center().x + profile.half().x;
     const Mat3& linear = primitive.local_to_world.linear;
     result.center = primitive.local_to_world.point({0, 0, profile.center().y});
     result.canonical_to_world =
         Mat3{linear[0] * radius, linear[1] * radius, linear[2] * profile.half().y};
     result.world_to_canonical = inverse(result.canonical_to_world);
-    result.bounds = bounds_of(result);
     return result;
   }
 
@@ -91,13 +96,5 @@ constexpr RevolutionKind kRevolutionKind;
 }  // namespace
 
 constinit const PrimitiveKind& Revolution_kind = kRevolutionKind;
-
-Primitive make_revolution(std::shared_ptr<const Profile> profile, const Affine& local_to_world) {
-  Primitive primitive;
-  primitive.shape = Shape::kRevolution;
-  primitive.profile = std::move(profile);
-  primitive.local_to_world = local_to_world;
-  return primitive;
-}
 
 }  // namespace csgcore

@@ -34,7 +34,7 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
 
 }  // namespace sphere_rays
 
-/// See kind_rays-inl.hpp. Balls and ellipsoids have no caps.
+/// See primitive-inl.hpp. Balls and ellipsoids have no caps.
 struct SphereRays {
   static constexpr bool kHasCaps = false;
 

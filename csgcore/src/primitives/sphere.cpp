@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "csgcore/polyhedron.hpp"
 #include "primitives/primitive_kind.hpp"
 
 namespace csgcore {
@@ -44,13 +45,21 @@ Vec3 most_stretched(const Mat3& world_to_canonical) {
 class SphereKind final : public PrimitiveKind {
  public:
   bool has_valid_shape(const Primitive& primitive) const override {
-    return std::isfinite(primitive.r_bottom) && primitive.r_bottom > 0;
+    const double radius = primitive.as<SphereShape>().radius;
+    return std::isfinite(radius) && radius > 0;
+  }
+  Mesh faceted_mesh(const Primitive& primitive, int fragments) const override {
+    return sphere_mesh(primitive.as<SphereShape>().radius, fragments);
+  }
+  std::shared_ptr<const Polyhedron> faceted_polyhedron(const Primitive& primitive,
+                                                       int fragments) const override {
+    return Polyhedron::sphere(primitive.as<SphereShape>().radius, fragments);
   }
   CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
     CanonicalPrimitive result;
-    result.shape = Shape::kSphere;
     result.center = primitive.local_to_world.translation;
-    result.canonical_to_world = primitive.local_to_world.linear * primitive.r_bottom;
+    result.canonical_to_world =
+        primitive.local_to_world.linear * primitive.as<SphereShape>().radius;
     result.world_to_canonical = inverse(result.canonical_to_world);
     if (is_similarity(result.canonical_to_world)) {
       result.ball_radius = glm::length(result.canonical_to_world[0]);
@@ -126,13 +135,5 @@ constexpr SphereKind kSphereKind;
 }  // namespace
 
 constinit const PrimitiveKind& Sphere_kind = kSphereKind;
-
-Primitive make_sphere(double radius, const Affine& local_to_world) {
-  Primitive primitive;
-  primitive.shape = Shape::kSphere;
-  primitive.r_bottom = radius;
-  primitive.local_to_world = local_to_world;
-  return primitive;
-}
 
 }  // namespace csgcore

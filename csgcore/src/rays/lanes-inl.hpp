@@ -193,7 +193,7 @@ HWY_INLINE Rays<D> load_rays(D d, const RayPacket& packet, size_t first) {
 }
 
 /// The stretches of rays within a primitive: start < end, or +∞ and −∞ if the ray misses it. The
-/// masks are the `on_cap` with which the normals at the ends are found (kind_rays-inl.hpp).
+/// masks are the `on_cap` with which the normals at the ends are found (primitive-inl.hpp).
 template <class D>
 struct Segment {
   hn::Vec<D> start, end;

@@ -27,13 +27,13 @@ constexpr double kMostMoved = 1.0 / 32;
 
 /// The extent of a ball of infinite radius that contains no cell, so that only the box decides.
 Extent extent_of_box(const Box& box) {
-  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  constexpr double kExtentRounding = 4 * std::numeric_limits<double>::epsilon();
   Extent extent{{}, {}, std::numeric_limits<double>::infinity(), 0.0};
   for (int axis = 0; axis < 3; ++axis) {
     const double center = 0.5 * box.min[axis] + 0.5 * box.max[axis];
     const double half = std::max(box.max[axis] - center, center - box.min[axis]);
     extent.center[axis] = center;
-    extent.half[axis] = half + kRounding * (half + std::abs(center));
+    extent.half[axis] = half + kExtentRounding * (half + std::abs(center));
   }
   return extent;
 }

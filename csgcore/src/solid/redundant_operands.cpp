@@ -12,9 +12,7 @@
 #include <unordered_map>
 
 #include "base/constants.hpp"
-#include "csgcore/polyhedron.hpp"
-#include "csgcore/profile.hpp"
-#include "csgcore/triangle_mesh.hpp"
+#include "primitives/primitive_kind.hpp"
 
 namespace csgcore {
 namespace {
@@ -46,8 +44,7 @@ uint64_t hash_of(const CanonicalPrimitive& primitive) {
 bool is_equal(const CanonicalPrimitive& a, const CanonicalPrimitive& b) {
   return a.shape == b.shape && a.center == b.center && a.radius_mid == b.radius_mid &&
          a.radius_slope == b.radius_slope && a.canonical_to_world == b.canonical_to_world &&
-         same_polyhedron(a.polyhedron.get(), b.polyhedron.get()) && same_mesh(a.mesh(), b.mesh()) &&
-         same_profile(a.profile(), b.profile());
+         kind_of(a.shape).has_same_form(a, b);
 }
 
 /// Returns, for each primitive, the lowest index among the primitives that equal it. Most often no

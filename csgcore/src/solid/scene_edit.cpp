@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "csgcore/polyhedron.hpp"
-#include "csgcore/profile.hpp"
-#include "csgcore/triangle_mesh.hpp"
+#include "primitives/primitive_kind.hpp"
 #include "solid/restriction.hpp"
 #include "tree/cell_list.hpp"
 
@@ -104,12 +102,9 @@ void match_primitives(const Scene& before, const Scene& after, SceneEdit& edit) 
 }  // namespace
 
 bool same_shape(const Primitive& a, const Primitive& b) {
-  return a.shape == b.shape && a.r_bottom == b.r_bottom && a.r_top == b.r_top &&
-         a.z_min == b.z_min && a.z_max == b.z_max &&
-         a.local_to_world.linear == b.local_to_world.linear &&
-         a.local_to_world.translation == b.local_to_world.translation &&
-         same_polyhedron(a.polyhedron.get(), b.polyhedron.get()) &&
-         same_mesh(a.mesh.get(), b.mesh.get()) && same_profile(a.profile.get(), b.profile.get());
+  return a.local_to_world.linear == b.local_to_world.linear &&
+         a.local_to_world.translation == b.local_to_world.translation && a.shape() == b.shape() &&
+         kind_of(a.shape()).has_same_solid(a, b);
 }
 
 bool SceneEdit::surfaces_only() const {

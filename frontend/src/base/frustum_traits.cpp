@@ -6,16 +6,16 @@
 #include "base/plane_faces.hpp"
 #include "base/polygon_box.hpp"
 #include "base/primitive_traits.hpp"
-#include "csgcore/polyhedron.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Box;
+using csgcore::FrustumShape;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-double larger_radius(const Primitive& p) { return std::max(p.r_bottom, p.r_top); }
+double larger_radius(const FrustumShape& shape) { return std::max(shape.r_bottom, shape.r_top); }
 
 /// Adds a cap, with three points of its rim and its normal towards z_max, or an apex. It is built
 /// in place: healing asks for caps often, and a copy would wait for what has just been written.
@@ -34,42 +34,44 @@ void add_cap(double z, double radius, uint32_t opposite, PlaneFaces& faces) {
 
 class FrustumTraits final : public PrimitiveTraits {
  public:
-  double extent(const Primitive& p) const override {
-    return std::max({p.r_bottom, p.r_top, std::abs(p.z_min), std::abs(p.z_max)});
+  double extent(const Primitive& primitive) const override {
+    const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<FrustumShape>();
+    return std::max({r_bottom, r_top, std::abs(z_min), std::abs(z_max)});
   }
 
   int fragments(const Primitive& primitive, const csgcore::FacetSettings& settings) const override {
-    return csgcore::fragment_count(larger_radius(primitive), settings);
+    return csgcore::fragment_count(larger_radius(primitive.as<FrustumShape>()), settings);
   }
   Box faceted_box(const Primitive& primitive,
                   const csgcore::FacetSettings& settings) const override {
-    const double radius = larger_radius(primitive);
+    const auto& frustum = primitive.as<FrustumShape>();
+    const double radius = larger_radius(frustum);
     const Box& unit = unit_polygon_box(fragments(primitive, settings));
     Box box{radius * unit.min, radius * unit.max};
-    box.min.z = primitive.z_min;
-    box.max.z = primitive.z_max;
+    box.min.z = frustum.z_min;
+    box.max.z = frustum.z_max;
     return box;
   }
-  Faceting faceting(const Primitive& p, int fragments) const override {
+  Faceting faceting(const Primitive& primitive, int fragments) const override {
+    const auto& p = primitive.as<FrustumShape>();
     const double radius = larger_radius(p);
     return {csgcore::make_frustum(0, 1, p.r_bottom / radius, p.r_top / radius), Vec3(0, 0, p.z_min),
             Vec3(radius, radius, p.z_max - p.z_min), static_cast<uint64_t>(fragments) + 2};
   }
-  std::shared_ptr<const csgcore::Polyhedron> faceted(const Primitive& p,
-                                                     int fragments) const override {
-    return csgcore::Polyhedron::frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments);
-  }
   /// OpenSCAD leaves a cylinder's sides whole.
-  RevolvedFaces revolved_faces(const Primitive& p, int fragments) const override {
+  RevolvedFaces revolved_faces(const Primitive& primitive, int fragments) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return {csgcore::frustum_mesh(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments),
             p.r_bottom != p.r_top};
   }
 
-  Roundness roundness(const Primitive& p) const override {
+  Roundness roundness(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return {Roundness::About::kAxis, {p.r_bottom, p.r_top}, {p.z_min, p.z_max}};
   }
   /// Face 0 is the cap at z_min, face 1 the one at z_max.
-  void find_plane_faces(const Primitive& p, PlaneFaces& faces) const override {
+  void find_plane_faces(const Primitive& primitive, PlaneFaces& faces) const override {
+    const auto& p = primitive.as<FrustumShape>();
     add_cap(p.z_min, p.r_bottom, 1, faces);
     add_cap(p.z_max, p.r_top, 0, faces);
   }
@@ -78,7 +80,9 @@ class FrustumTraits final : public PrimitiveTraits {
   double inscribed_share(int fragments) const override {
     return std::cos(std::numbers::pi / fragments);
   }
-  std::optional<RadialPlace> radial_place(const Primitive& p, const Vec3& point) const override {
+  std::optional<RadialPlace> radial_place(const Primitive& primitive,
+                                          const Vec3& point) const override {
+    const auto& p = primitive.as<FrustumShape>();
     const double height = (point.z - p.z_min) / (p.z_max - p.z_min);
     return RadialPlace{Vec3(point.x, point.y, 0), p.r_bottom + height * (p.r_top - p.r_bottom),
                        larger_radius(p), height};

@@ -18,7 +18,7 @@ using csgcore::Vec3;
 class MeshTraits final : public PrimitiveTraits {
  public:
   double extent(const csgcore::Primitive& primitive) const override {
-    const TriangleMesh::Canonical& canonical = primitive.mesh->canonical();
+    const TriangleMesh::Canonical& canonical = primitive.mesh()->canonical();
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {
       extent = std::max(extent, std::abs(canonical.center[axis]) + canonical.scale[axis]);
@@ -28,7 +28,7 @@ class MeshTraits final : public PrimitiveTraits {
 
   /// The planes of the triangles, each once.
   void find_plane_faces(const csgcore::Primitive& primitive, PlaneFaces& result) const override {
-    const TriangleMesh& mesh = *primitive.mesh;
+    const TriangleMesh& mesh = *primitive.mesh();
     if (mesh.triangles().size() > kMostComparedTriangles) return;
     std::vector<std::vector<Vec3>> corners;
     for (const TriangleMesh::Triangle& triangle : mesh.triangles()) {

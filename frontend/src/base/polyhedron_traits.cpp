@@ -31,7 +31,7 @@ void add_corners(const Polyhedron& polyhedron, const Vec3& normal, double offset
 class PolyhedronTraits final : public PrimitiveTraits {
  public:
   double extent(const Primitive& primitive) const override {
-    const Polyhedron::Canonical& canonical = primitive.polyhedron->canonical();
+    const Polyhedron::Canonical& canonical = primitive.polyhedron()->canonical();
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {
       extent = std::max(extent, std::abs(canonical.center[axis]) + canonical.scale[axis]);
@@ -41,16 +41,13 @@ class PolyhedronTraits final : public PrimitiveTraits {
 
   Box faceted_box(const Primitive& primitive, const csgcore::FacetSettings&) const override {
     Box box;
-    for (const Vec3& vertex : primitive.polyhedron->vertices()) box.merge(vertex);
+    for (const Vec3& vertex : primitive.polyhedron()->vertices()) box.merge(vertex);
     return box;
-  }
-  std::shared_ptr<const Polyhedron> faceted(const Primitive& primitive, int) const override {
-    return primitive.polyhedron;
   }
 
   /// Faces are numbered as half-spaces are; their normals point outwards.
   void find_plane_faces(const Primitive& primitive, PlaneFaces& result) const override {
-    const Polyhedron& polyhedron = *primitive.polyhedron;
+    const Polyhedron& polyhedron = *primitive.polyhedron();
     if (polyhedron.half_spaces().size() > kMostComparedFaces) return;
     for (const csgcore::HalfSpace& half_space : polyhedron.half_spaces()) {
       const double length = glm::length(half_space.normal);

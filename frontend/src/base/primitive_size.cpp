@@ -14,7 +14,7 @@ double size_of(const csgcore::Primitive& primitive) {
       stretch = std::max(stretch, std::abs(primitive.local_to_world.linear[column][row]));
     }
   }
-  return traits_of(primitive.shape).extent(primitive) * stretch;
+  return traits_of(primitive.shape()).extent(primitive) * stretch;
 }
 
 }  // namespace frontend

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "csgcore/canonical_primitive.hpp"
 
@@ -24,20 +23,23 @@ Box smooth_box(const Primitive& primitive) {
 
 }  // namespace
 
-// Each kind's own file defines its traits.
-#define FRONTEND_DECLARE(Name) extern const PrimitiveTraits& Name##_traits;
-CSGCORE_FOR_EACH_SHAPE(FRONTEND_DECLARE)
-#undef FRONTEND_DECLARE
+// Each of these kinds defines its traits in a file of its own.
+extern const PrimitiveTraits &Sphere_traits, &Frustum_traits, &Polyhedron_traits, &Mesh_traits;
 
 const PrimitiveTraits& traits_of(csgcore::Shape shape) {
+  static constexpr PrimitiveTraits kDefaults;
   switch (shape) {
-#define FRONTEND_CASE(Name)     \
-  case csgcore::Shape::k##Name: \
-    return Name##_traits;
-    CSGCORE_FOR_EACH_SHAPE(FRONTEND_CASE)
-#undef FRONTEND_CASE
+    case csgcore::Shape::kSphere:
+      return Sphere_traits;
+    case csgcore::Shape::kFrustum:
+      return Frustum_traits;
+    case csgcore::Shape::kPolyhedron:
+      return Polyhedron_traits;
+    case csgcore::Shape::kMesh:
+      return Mesh_traits;
+    default:
+      return kDefaults;
   }
-  throw std::logic_error("a shape that is none");
 }
 
 double PrimitiveTraits::extent(const Primitive& primitive) const {
@@ -60,10 +62,6 @@ Faceting PrimitiveTraits::faceting(const Primitive& primitive, int fragments) co
   return {without_map(primitive), Vec3(0.0), Vec3(1.0), around * around};
 }
 
-std::shared_ptr<const csgcore::Polyhedron> PrimitiveTraits::faceted(const Primitive&, int) const {
-  return nullptr;
-}
-
 RevolvedFaces PrimitiveTraits::revolved_faces(const Primitive&, int) const { return {}; }
 
 Roundness PrimitiveTraits::roundness(const Primitive&) const { return {}; }
@@ -74,10 +72,6 @@ double PrimitiveTraits::inscribed_share(int) const { return 1; }
 
 std::optional<RadialPlace> PrimitiveTraits::radial_place(const Primitive&, const Vec3&) const {
   return std::nullopt;
-}
-
-LocalSolid local_solid(const Primitive& p) {
-  return {p.shape, p.r_bottom, p.r_top, p.z_min, p.z_max, p.polyhedron.get(), p.mesh.get()};
 }
 
 }  // namespace frontend

@@ -1,13 +1,12 @@
 // The traits of each kind of primitive: what the frontend and `scadray validate` ask of it. A
-// kind's answers are in one file, sphere_traits.cpp and so on. CSGCORE_FOR_EACH_SHAPE
-// (csgcore/shape.hpp) lists the kinds; one without traits does not link.
+// kind's answers are in one file, sphere_traits.cpp and so on, which primitive_traits.cpp lists; a
+// kind without one has the defaults.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <tuple>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
@@ -60,12 +59,8 @@ class PrimitiveTraits {
                                    const csgcore::FacetSettings& settings) const;
   /// Returns the part of the faceting that may be shared. `fragments` is 3 or more, here and below.
   virtual Faceting faceting(const csgcore::Primitive& primitive, int fragments) const;
-  /// Returns the convex polyhedron that OpenSCAD makes of the solid; a polyhedron itself. Null if
-  /// there is none: then `scadray validate` does not compare the design with CGAL.
-  virtual std::shared_ptr<const csgcore::Polyhedron> faceted(const csgcore::Primitive& primitive,
-                                                             int fragments) const;
-  /// Returns the faces of that polyhedron as OpenSCAD makes them. None for a kind that is not
-  /// round.
+  /// Returns the faces of csgcore::faceted_polyhedron() as OpenSCAD makes them. None for a kind
+  /// that is not round.
   virtual RevolvedFaces revolved_faces(const csgcore::Primitive& primitive, int fragments) const;
 
   virtual Roundness roundness(const csgcore::Primitive& primitive) const;
@@ -75,20 +70,11 @@ class PrimitiveTraits {
 
   /// Returns a share of the radius: the facets are nowhere further below the smooth surface.
   virtual double inscribed_share(int fragments) const;
-  /// Returns where the point is; nothing if faceted() is the solid itself.
+  /// Returns where the point is; nothing if csgcore::faceted_polyhedron() is the solid itself.
   virtual std::optional<RadialPlace> radial_place(const csgcore::Primitive& primitive,
                                                   const csgcore::Vec3& point) const;
-
- protected:
-  ~PrimitiveTraits() = default;
 };
 
 const PrimitiveTraits& traits_of(csgcore::Shape shape);
-
-/// All parameters that make a local solid: primitives with equal ones have the same solid. A
-/// parameter that Primitive gains has to be added.
-using LocalSolid = std::tuple<csgcore::Shape, double, double, double, double,
-                              const csgcore::Polyhedron*, const csgcore::TriangleMesh*>;
-LocalSolid local_solid(const csgcore::Primitive& primitive);
 
 }  // namespace frontend

@@ -4,7 +4,6 @@
 
 #include "base/polygon_box.hpp"
 #include "base/primitive_traits.hpp"
-#include "csgcore/polyhedron.hpp"
 
 namespace frontend {
 namespace {
@@ -12,6 +11,8 @@ namespace {
 using csgcore::Box;
 using csgcore::Primitive;
 using csgcore::Vec3;
+
+double radius_of(const Primitive& sphere) { return sphere.as<csgcore::SphereShape>().radius; }
 
 /// Returns the box of the unit sphere's rings (frontend/OPENSCAD.md, "Facets"), from the polygon's.
 Box box_of_rings(int fragments) {
@@ -37,31 +38,27 @@ const Box& unit_sphere_box(int fragments) {
 
 class SphereTraits final : public PrimitiveTraits {
  public:
-  double extent(const Primitive& primitive) const override { return primitive.r_bottom; }
+  double extent(const Primitive& primitive) const override { return radius_of(primitive); }
 
   int fragments(const Primitive& primitive, const csgcore::FacetSettings& settings) const override {
-    return csgcore::fragment_count(primitive.r_bottom, settings);
+    return csgcore::fragment_count(radius_of(primitive), settings);
   }
   Box faceted_box(const Primitive& primitive,
                   const csgcore::FacetSettings& settings) const override {
     const Box& unit = unit_sphere_box(fragments(primitive, settings));
-    return {primitive.r_bottom * unit.min, primitive.r_bottom * unit.max};
+    return {radius_of(primitive) * unit.min, radius_of(primitive) * unit.max};
   }
   Faceting faceting(const Primitive& primitive, int fragments) const override {
     const auto bands = static_cast<uint64_t>(csgcore::ring_count(fragments) - 1);
-    return {csgcore::make_sphere(1), Vec3(0.0), Vec3(primitive.r_bottom),
+    return {csgcore::make_sphere(1), Vec3(0.0), Vec3(radius_of(primitive)),
             bands * static_cast<uint64_t>(fragments) + 2};
   }
-  std::shared_ptr<const csgcore::Polyhedron> faceted(const Primitive& primitive,
-                                                     int fragments) const override {
-    return csgcore::Polyhedron::sphere(primitive.r_bottom, fragments);
-  }
   RevolvedFaces revolved_faces(const Primitive& primitive, int fragments) const override {
-    return {csgcore::sphere_mesh(primitive.r_bottom, fragments), true};
+    return {csgcore::sphere_mesh(radius_of(primitive), fragments), true};
   }
 
   Roundness roundness(const Primitive& primitive) const override {
-    return {Roundness::About::kCenter, {primitive.r_bottom, 0}, {}};
+    return {Roundness::About::kCenter, {radius_of(primitive), 0}, {}};
   }
 
   /// The facets are chords of the rings, and of the meridians, along which rings are 180°/rings
@@ -72,7 +69,7 @@ class SphereTraits final : public PrimitiveTraits {
   }
   std::optional<RadialPlace> radial_place(const Primitive& primitive,
                                           const Vec3& point) const override {
-    return RadialPlace{point, primitive.r_bottom, primitive.r_bottom, 0.5};
+    return RadialPlace{point, radius_of(primitive), radius_of(primitive), 0.5};
   }
 };
 

@@ -13,7 +13,7 @@
 namespace frontend {
 namespace {
 
-constexpr NameTable kNodeTable(kNodeNames);
+constexpr NameTable kNodeKinds(kNodeNames);
 
 uint8_t modifiers_of(uint8_t call_modifiers) {
   uint8_t modifiers = 0;
@@ -41,7 +41,7 @@ class TreeBuilder {
   void add_node(uint32_t index, uint32_t subtree_end) {
     const language::Node& node = from_.nodes[index];
     SyntaxNode made;
-    made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
+    made.kind = static_cast<NodeKind>(kNodeKinds.find(node.name));
     made.modifiers = modifiers_of(node.modifiers);
     if (files_.has(node.place.file)) {
       made.location = {files_.line(node.place), files_.column(node.place), node.place.file};

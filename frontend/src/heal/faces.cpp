@@ -21,7 +21,7 @@ Vec3 image_of_normal(const Mat3& map, const Vec3& normal) {
 }
 
 void find_faces(const Primitive& primitive, PlaneFaces& faces) {
-  traits_of(primitive.shape).find_plane_faces(primitive, faces);
+  traits_of(primitive.shape()).find_plane_faces(primitive, faces);
   assert(faces.faces.size() <= kMostComparedFaces);
 }
 
@@ -32,8 +32,8 @@ Face face_in_world(const PlaneFace& face, const csgcore::Affine& local_to_world)
 }
 
 const PlaneFaces& Faces::of(const Primitive& primitive) {
-  const void* shared = primitive.polyhedron.get();
-  if (shared == nullptr) shared = primitive.mesh.get();
+  const void* shared = primitive.polyhedron();
+  if (shared == nullptr) shared = primitive.mesh();
   if (shared == nullptr) {
     found_.clear();
     find_faces(primitive, found_);

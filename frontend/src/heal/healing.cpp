@@ -62,7 +62,7 @@ struct AxisPlace {
 };
 
 Roundness roundness_of(const Primitive& primitive) {
-  return traits_of(primitive.shape).roundness(primitive);
+  return traits_of(primitive.shape()).roundness(primitive);
 }
 
 AxisPlace place_of(const Primitive& primitive, const Roundness& roundness) {

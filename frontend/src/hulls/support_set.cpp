@@ -18,7 +18,6 @@ using csgcore::Mat3;
 using csgcore::Primitive;
 using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 using Kind = ProfileEdge::Kind;
@@ -160,16 +159,45 @@ Generator upright_disc(const Vec3& center, double radius) {
   return generator;
 }
 
-void add_extrusion(const Primitive& extrusion, SupportSet& support) {
+void add_points(std::span<const Vec3> points, SupportSet& support) {
+  for (const Vec3& point : points) support.generators.push_back(point_at(point));
+}
+
+/// A kind that says no more has the support of its mesh.
+template <class RoundShape>
+void add_local_support(const RoundShape& shape, SupportSet& support) {
+  add_points(csgcore::faceted_mesh({shape, {}}, kChordsOfCircle).vertices, support);
+}
+
+void add_local_support(const csgcore::SphereShape& sphere, SupportSet& support) {
+  Generator ball;
+  ball.ball = Mat3(sphere.radius);
+  support.generators.push_back(ball);
+}
+
+void add_local_support(const csgcore::FrustumShape& frustum, SupportSet& support) {
+  support.generators.push_back(upright_disc(Vec3(0, 0, frustum.z_min), frustum.r_bottom));
+  support.generators.push_back(upright_disc(Vec3(0, 0, frustum.z_max), frustum.r_top));
+}
+
+void add_local_support(const csgcore::PolyhedronShape& shape, SupportSet& support) {
+  add_points(shape.polyhedron->vertices(), support);
+}
+
+void add_local_support(const csgcore::MeshShape& shape, SupportSet& support) {
+  add_points(shape.mesh->vertices(), support);
+}
+
+void add_local_support(const csgcore::ExtrusionShape& extrusion, SupportSet& support) {
   for (const Disc& body : flat_bodies(*extrusion.profile, support.is_faceted)) {
-    for (const auto& [z, scale] : {std::pair(extrusion.z_min, extrusion.r_bottom),
-                                   std::pair(extrusion.z_max, extrusion.r_top)}) {
+    for (const auto& [z, scale] : {std::pair(extrusion.z_min, extrusion.scale_bottom),
+                                   std::pair(extrusion.z_max, extrusion.scale_top)}) {
       support.generators.push_back(upright_disc(Vec3(scale * body.center, z), scale * body.radius));
     }
   }
 }
 
-void add_revolution(const Primitive& revolution, SupportSet& support) {
+void add_local_support(const csgcore::RevolutionShape& revolution, SupportSet& support) {
   for (const Disc& body : flat_bodies(*revolution.profile, support.is_faceted)) {
     Generator generator = upright_disc(Vec3(0, 0, body.center.y), std::abs(body.center.x));
     if (body.radius > 0) generator.ball = Mat3(body.radius);
@@ -177,57 +205,22 @@ void add_revolution(const Primitive& revolution, SupportSet& support) {
   }
 }
 
-void add_points(std::span<const Vec3> points, SupportSet& support) {
-  for (const Vec3& point : points) support.generators.push_back(point_at(point));
-}
-
 }  // namespace
 
 void add_support(const Primitive& primitive, SupportSet& support) {
   const size_t first = support.generators.size();
-  switch (primitive.shape) {
-    case Shape::kSphere: {
-      Generator ball;
-      ball.ball = Mat3(primitive.r_bottom);
-      support.generators.push_back(ball);
-      break;
-    }
-    case Shape::kFrustum:
-      support.generators.push_back(upright_disc(Vec3(0, 0, primitive.z_min), primitive.r_bottom));
-      support.generators.push_back(upright_disc(Vec3(0, 0, primitive.z_max), primitive.r_top));
-      break;
-    case Shape::kPolyhedron:
-      add_points(primitive.polyhedron->vertices(), support);
-      break;
-    case Shape::kMesh:
-      add_points(primitive.mesh->vertices(), support);
-      break;
-    case Shape::kExtrusion:
-      add_extrusion(primitive, support);
-      break;
-    case Shape::kRevolution:
-      add_revolution(primitive, support);
-      break;
-  }
+  std::visit([&](const auto& shape) { add_local_support(shape, support); }, primitive.solid);
   for (size_t i = first; i < support.generators.size(); ++i) {
     support.generators[i] = mapped(primitive.local_to_world, support.generators[i]);
   }
 }
 
 bool is_convex(const Primitive& primitive) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-    case Shape::kFrustum:
-    case Shape::kPolyhedron:
-      return true;
-    case Shape::kExtrusion:
-      return primitive.profile->loops().size() == 1 &&
-             is_convex_loop(primitive.profile->loops().front());
-    case Shape::kMesh:
-    case Shape::kRevolution:
-      break;
+  if (const auto* const extrusion = std::get_if<csgcore::ExtrusionShape>(&primitive.solid)) {
+    const std::span<const ProfileLoop> loops = extrusion->profile->loops();
+    return loops.size() == 1 && is_convex_loop(loops.front());
   }
-  return false;
+  return csgcore::is_convex(primitive.shape());
 }
 
 bool is_convex_loop(const ProfileLoop& loop) {

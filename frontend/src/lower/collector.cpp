@@ -100,9 +100,9 @@ FaceSet flat_faces_of(const Primitive& primitive) {
     }
     for (const auto& t : triangles) faces.corners.insert(faces.corners.end(), t.begin(), t.end());
   };
-  if (primitive.mesh) add_all(primitive.mesh->vertices(), primitive.mesh->triangles());
-  if (primitive.polyhedron) {
-    const std::vector<csgcore::Vec3>& vertices = primitive.polyhedron->vertices();
+  if (primitive.mesh()) add_all(primitive.mesh()->vertices(), primitive.mesh()->triangles());
+  if (primitive.polyhedron()) {
+    const std::vector<csgcore::Vec3>& vertices = primitive.polyhedron()->vertices();
     add_all(vertices, point_hull(on_grid(vertices)).triangles);
   }
   return faces;
@@ -339,8 +339,9 @@ void Collector::add_solid(uint32_t index) {
     return add_sides(index, primitive, *faces, context);
   }
   const csgcore::Box box = faceted_box(primitive, facets);
-  const int count =
-      keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
+  const int count = keeps_facets(options_, facets)
+                        ? traits_of(primitive.shape()).fragments(primitive, facets)
+                        : 0;
   primitive_of[index] =
       add_primitive(std::move(primitive), index, context, typed_frame(index, frame), box, count);
   const bool is_inside_out =
@@ -354,7 +355,7 @@ void Collector::add_solid(uint32_t index) {
 /// its facets. Returns false if nothing is left.
 bool Collector::flatten(uint32_t index, const csgcore::FacetSettings& facets,
                         Primitive& primitive) {
-  const int count = traits_of(primitive.shape).fragments(primitive, facets);
+  const int count = traits_of(primitive.shape()).fragments(primitive, facets);
   const Affine to_world = std::exchange(primitive.local_to_world, {});
   if (count > 0) polyhedra.facet(primitive, count);
   primitive.local_to_world = compose(to_world, primitive.local_to_world);

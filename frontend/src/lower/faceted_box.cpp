@@ -8,7 +8,7 @@ namespace frontend {
 
 csgcore::Box faceted_box(const csgcore::Primitive& primitive,
                          const csgcore::FacetSettings& settings) {
-  const csgcore::Box local = traits_of(primitive.shape).faceted_box(primitive, settings);
+  const csgcore::Box local = traits_of(primitive.shape()).faceted_box(primitive, settings);
   return mapped(primitive.local_to_world, local);
 }
 

@@ -208,7 +208,7 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
 }
 
 bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
-  const Faceting faceting = traits_of(primitive.shape).faceting(primitive, fragments);
+  const Faceting faceting = traits_of(primitive.shape()).faceting(primitive, fragments);
   const SolidOfFaces& solid = faceted(faceting, fragments);
   if (solid.is_empty()) return false;
   Primitive faceted =
@@ -224,7 +224,7 @@ bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
 
 const SolidOfFaces& PolyhedronPool::faceted(const Faceting& faceting, int fragments) {
   static const SolidOfFaces kNone;
-  const FacetedKey key{fragments, local_solid(faceting.unit)};
+  const FacetedKey key{fragments, faceting.unit.solid};
   const auto found = faceted_.find(key);
   if (found != faceted_.end()) return found->second;
   if (faceting.faces > kFewFacets) {
@@ -232,12 +232,12 @@ const SolidOfFaces& PolyhedronPool::faceted(const Faceting& faceting, int fragme
     facets_ += faceting.faces;
   }
   SolidOfFaces& solid = faceted_[key];
-  const PrimitiveTraits& traits = traits_of(faceting.unit.shape);
+  const PrimitiveTraits& traits = traits_of(faceting.unit.shape());
   if (faceting.faces > kMostHalfSpaces) {
     solid.mesh = mesh_of(traits.revolved_faces(faceting.unit, fragments));
     return solid;
   }
-  solid.polyhedron = traits.faceted(faceting.unit, fragments);
+  solid.polyhedron = csgcore::faceted_polyhedron(faceting.unit, fragments);
   if (keeps_meshes_) {
     meshes_of_[solid.polyhedron.get()] =
         facet_mesh(traits.revolved_faces(faceting.unit, fragments));

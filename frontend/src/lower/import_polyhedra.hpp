@@ -72,7 +72,7 @@ class PolyhedronPool {
 
  private:
   /// Fragments, and Faceting::unit.
-  using FacetedKey = std::pair<int, LocalSolid>;
+  using FacetedKey = std::pair<int, csgcore::LocalSolid>;
 
   /// What tells faces from others: their counts, their power of two and two hashes of 64 bits, so
   /// that large ones need not be kept.

@@ -90,8 +90,7 @@ class BoxFinder {
   /// OpenSCAD's facets lie within what is round.
   Box deciding_box(uint32_t primitive, const Box& facets) const {
     const csgcore::Primitive& solid = collected_.primitives[primitive];
-    const bool has_facets =
-        solid.shape == csgcore::Shape::kPolyhedron || solid.shape == csgcore::Shape::kMesh;
+    const bool has_facets = solid.polyhedron() != nullptr || solid.mesh() != nullptr;
     if (has_facets || is_of_plate_[primitive]) return facets;
     Box box = facets;
     box.merge(csgcore::canonicalize(solid).bounds);

@@ -25,7 +25,7 @@ FigureNode circle_node(const SyntaxTree& tree, const SyntaxNode& node, const Imp
   const csgcore::FacetSettings facets = chosen(options, round.facets);
   FigureNode result;
   if (!csgcore::has_valid_shape(round.primitive)) return result;
-  const Disc disc{Vec2(0.0), round.primitive.r_bottom};
+  const Disc disc{Vec2(0.0), round.primitive.as<csgcore::SphereShape>().radius};
   result.fragments = csgcore::fragment_count(disc.radius, facets);
   const bool is_polygon = keeps_facets(options, facets) && result.fragments <= kMostFragments;
   result.figure = is_polygon ? Figure(outline_of(Polygons{circle_polygon(disc, result.fragments)}))

@@ -47,7 +47,7 @@ RoundLeaf round_leaf(const SyntaxTree& tree, const SyntaxNode& node, const Impor
       leaf.facets = round.facets;
       if (options.fn) leaf.facets.fn = *options.fn;
       if (leaf.is_round) {
-        leaf.own = traits_of(round.primitive.shape).fragments(round.primitive, leaf.facets);
+        leaf.own = traits_of(round.primitive.shape()).fragments(round.primitive, leaf.facets);
       }
       break;
     }

@@ -107,9 +107,9 @@ class Revolving {
     result.box = mapped(root_to_world_, box_of_rings(bounds_of(polygons)));
     Primitive mesh = revolved_mesh(polygons, sections_);
     std::vector<csgcore::TriangleMesh::Triangle> sheet =
-        sheet_of(mesh.mesh->vertices(), mesh.mesh->triangles());
+        sheet_of(mesh.mesh()->vertices(), mesh.mesh()->triangles());
     if (!sheet.empty()) {
-      const std::span<const Vec3> vertices = mesh.mesh->vertices();
+      const std::span<const Vec3> vertices = mesh.mesh()->vertices();
       mesh = csgcore::make_mesh(std::make_shared<csgcore::TriangleMesh>(
           std::vector<Vec3>(vertices.begin(), vertices.end()), std::move(sheet)));
       problems_.add(subtree_.syntax(subtree_.root()),

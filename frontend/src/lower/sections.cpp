@@ -20,7 +20,6 @@ namespace {
 using csgcore::Affine;
 using csgcore::CsgTreeBuilder;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 /// What the map makes of local points at that height, seen along z.
@@ -39,21 +38,21 @@ struct CutAt {
   double radius;  // there: of the frustum, or the scale of the extrusion
 };
 
-/// Returns where the plane cuts a frustum or an extrusion that stands upright; nothing if it does
-/// not.
-std::optional<CutAt> cut_of(const Primitive& primitive) {
+/// Returns where the plane cuts a frustum or an extrusion that stands upright, with these radii or
+/// scales at its ends; nothing if it does not.
+std::optional<CutAt> cut_of(const Primitive& primitive, const CutAt& lower, const CutAt& upper) {
   const double size = size_of(primitive);
   const auto world_z = [&](double z) {
     const double result = primitive.local_to_world.point(Vec3(0, 0, z)).z;
     return is_in_plane(result, size) ? 0 : result;
   };
-  const double bottom = world_z(primitive.z_min), top = world_z(primitive.z_max);
-  if (bottom == 0) return CutAt{primitive.z_min, primitive.r_bottom};
-  if (top == 0) return CutAt{primitive.z_max, primitive.r_top};
+  const double bottom = world_z(lower.z), top = world_z(upper.z);
+  if (bottom == 0) return lower;
+  if (top == 0) return upper;
   if ((bottom > 0) == (top > 0)) return std::nullopt;
   const double share = bottom / (bottom - top);
-  return CutAt{primitive.z_min + share * (primitive.z_max - primitive.z_min),
-               primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom)};
+  return CutAt{lower.z + share * (upper.z - lower.z),
+               lower.radius + share * (upper.radius - lower.radius)};
 }
 
 std::vector<Figure> disc_under(const PlaneMap& plan, double radius) {
@@ -62,29 +61,32 @@ std::vector<Figure> disc_under(const PlaneMap& plan, double radius) {
 }
 
 /// The plane cuts a circle from the local ball, which the map takes to an ellipse.
-std::vector<Figure> section_of_sphere(const Primitive& sphere) {
-  const Affine& map = sphere.local_to_world;
+std::vector<Figure> section_of_sphere(double radius, const Affine& map) {
   const Vec3 rise(map.linear[0].z, map.linear[1].z, map.linear[2].z);
   const double steepness = glm::length(rise);
   const double distance = -map.translation.z / steepness;
-  if (!(std::abs(distance) < sphere.r_bottom)) return {};
+  if (!(std::abs(distance) < radius)) return {};
   const Axes axes = axes_along(rise / steepness);
   PlaneMap plan;
   plan.linear = {plan_of(map.linear * axes.x), plan_of(map.linear * axes.y)};
   plan.translation = plan_of(map.point(distance * axes.z));
-  return disc_under(plan, std::sqrt((sphere.r_bottom - distance) * (sphere.r_bottom + distance)));
+  return disc_under(plan, std::sqrt((radius - distance) * (radius + distance)));
 }
 
-std::vector<Figure> section_of_frustum(const Primitive& frustum) {
-  const std::optional<CutAt> cut = cut_of(frustum);
+std::vector<Figure> section_of_frustum(const Primitive& primitive,
+                                       const csgcore::FrustumShape& frustum) {
+  const std::optional<CutAt> cut =
+      cut_of(primitive, {frustum.z_min, frustum.r_bottom}, {frustum.z_max, frustum.r_top});
   if (!cut) return {};
-  return disc_under(plan_at(frustum.local_to_world, cut->z), cut->radius);
+  return disc_under(plan_at(primitive.local_to_world, cut->z), cut->radius);
 }
 
-std::vector<Figure> section_of_extrusion(const Primitive& extrusion) {
-  const std::optional<CutAt> cut = cut_of(extrusion);
+std::vector<Figure> section_of_extrusion(const Primitive& primitive,
+                                         const csgcore::ExtrusionShape& extrusion) {
+  const std::optional<CutAt> cut = cut_of(primitive, {extrusion.z_min, extrusion.scale_bottom},
+                                          {extrusion.z_max, extrusion.scale_top});
   if (!cut || !(cut->radius > 0)) return {};
-  PlaneMap plan = plan_at(extrusion.local_to_world, cut->z);
+  PlaneMap plan = plan_at(primitive.local_to_world, cut->z);
   plan.linear *= cut->radius;
   const csgcore::Profile& profile = *extrusion.profile;
   return {
@@ -93,12 +95,19 @@ std::vector<Figure> section_of_extrusion(const Primitive& extrusion) {
 
 std::vector<Figure> section_of_primitive(const Primitive& primitive, bool& has_open_mesh) {
   if (!csgcore::is_valid(primitive)) return {};  // it is flat
-  if (primitive.shape == Shape::kSphere) return section_of_sphere(primitive);
-  if (is_upright(primitive.local_to_world)) {
-    if (primitive.shape == Shape::kFrustum) return section_of_frustum(primitive);
-    if (primitive.shape == Shape::kExtrusion) return section_of_extrusion(primitive);
+  const csgcore::LocalSolid& solid = primitive.solid;
+  if (const auto* const sphere = std::get_if<csgcore::SphereShape>(&solid)) {
+    return section_of_sphere(sphere->radius, primitive.local_to_world);
   }
-  if (primitive.shape == Shape::kMesh && !primitive.mesh->is_closed()) {
+  if (is_upright(primitive.local_to_world)) {
+    if (const auto* const frustum = std::get_if<csgcore::FrustumShape>(&solid)) {
+      return section_of_frustum(primitive, *frustum);
+    }
+    if (const auto* const extrusion = std::get_if<csgcore::ExtrusionShape>(&solid)) {
+      return section_of_extrusion(primitive, *extrusion);
+    }
+  }
+  if (primitive.mesh() && !primitive.mesh()->is_closed()) {
     has_open_mesh = true;
     return {};
   }

@@ -26,7 +26,6 @@ using csgcore::CsgToken;
 using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 constexpr std::string_view kBecauseShadowCrosses = "the edges of its shadow cross too often";
@@ -93,7 +92,7 @@ FigureOperations hull_shadow(const SolidPart& part) {
 /// The corners of a polyhedron in the world, from the lowest on.
 std::vector<Vec3> corners_from_below(const Primitive& polyhedron) {
   std::vector<Vec3> corners;
-  for (const Vec3& vertex : polyhedron.polyhedron->vertices()) {
+  for (const Vec3& vertex : polyhedron.polyhedron()->vertices()) {
     corners.push_back(polyhedron.local_to_world.point(vertex));
   }
   std::sort(corners.begin(), corners.end(), [](const Vec3& a, const Vec3& b) {
@@ -127,23 +126,35 @@ bool keeps_vertical(const Affine& map) {
          map.linear[2].y == 0;
 }
 
+/// Returns the extrusion if the primitive is one that does not taper, else null.
+const csgcore::ExtrusionShape* straight_extrusion(const Primitive& primitive) {
+  const auto* const extrusion = std::get_if<csgcore::ExtrusionShape>(&primitive.solid);
+  return extrusion && extrusion->scale_bottom == extrusion->scale_top ? extrusion : nullptr;
+}
+
 std::optional<Stretch> stretch_of(const SolidPart& part) {
   if (!part.primitive || !csgcore::is_valid(*part.primitive)) return std::nullopt;
   const Primitive& primitive = *part.primitive;
-  if (primitive.shape == Shape::kPolyhedron) return stretch_of_polyhedron(primitive);
-  const bool has_ends = primitive.shape == Shape::kFrustum || primitive.shape == Shape::kExtrusion;
-  if (!has_ends || primitive.r_bottom != primitive.r_top) return std::nullopt;
+  if (primitive.polyhedron()) return stretch_of_polyhedron(primitive);
   if (!keeps_vertical(primitive.local_to_world)) return std::nullopt;
-  const double a = primitive.local_to_world.point(Vec3(0, 0, primitive.z_min)).z;
-  const double b = primitive.local_to_world.point(Vec3(0, 0, primitive.z_max)).z;
-  return Stretch{std::min(a, b), std::max(a, b)};
+  const auto between = [&](double z_min, double z_max) {
+    const double a = primitive.local_to_world.point(Vec3(0, 0, z_min)).z;
+    const double b = primitive.local_to_world.point(Vec3(0, 0, z_max)).z;
+    return Stretch{std::min(a, b), std::max(a, b)};
+  };
+  if (const auto* const frustum = std::get_if<csgcore::FrustumShape>(&primitive.solid)) {
+    if (frustum->r_bottom == frustum->r_top) return between(frustum->z_min, frustum->z_max);
+  }
+  if (const auto* const extrusion = straight_extrusion(primitive)) {
+    return between(extrusion->z_min, extrusion->z_max);
+  }
+  return std::nullopt;
 }
 
 /// The rings that an upright solid of revolution covers: each loop of its profile covers one.
-FigureOperations shadow_of_revolution(const Primitive& revolution) {
-  const PlaneMap plan = plane_part(revolution.local_to_world);
+FigureOperations shadow_of_revolution(const csgcore::Profile& profile, const PlaneMap& plan) {
   std::vector<Figure> rings;
-  for (const csgcore::ProfileLoop& loop : revolution.profile->loops()) {
+  for (const csgcore::ProfileLoop& loop : profile.loops()) {
     const Rectangle bounds = bounds_of(Figure(Outline{{loop}, csgcore::FillRule::kEvenOdd}));
     if (bounds.empty() || !(bounds.max.x > 0)) continue;
     Outline ring = outline_of(Disc{Vec2(0.0), bounds.max.x});
@@ -220,16 +231,18 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
   const Primitive& primitive = *part.primitive;
   const Affine& map = primitive.local_to_world;
   if (keeps_vertical(map)) {
-    if (primitive.shape == Shape::kRevolution) return shadow_of_revolution(primitive);
-    if (primitive.shape == Shape::kExtrusion && primitive.r_bottom == primitive.r_top) {
-      const csgcore::Profile& profile = *primitive.profile;
-      PlaneMap plan = plane_part(map);
-      plan.linear *= primitive.r_bottom;
+    PlaneMap plan = plane_part(map);
+    if (const auto* const revolution = std::get_if<csgcore::RevolutionShape>(&primitive.solid)) {
+      return shadow_of_revolution(*revolution->profile, plan);
+    }
+    if (const auto* const extrusion = straight_extrusion(primitive)) {
+      const csgcore::Profile& profile = *extrusion->profile;
+      plan.linear *= extrusion->scale_bottom;
       return union_of(std::vector<Figure>{mapped(
           plan, Outline{{profile.loops().begin(), profile.loops().end()}, profile.fill_rule()})});
     }
   }
-  const bool is_open = primitive.shape == Shape::kMesh && !primitive.mesh->is_closed();
+  const bool is_open = primitive.mesh() && !primitive.mesh()->is_closed();
   std::optional<Figure> shadow =
       shadow_of(triangles_of(primitive), is_open ? Boundary::kOpen : Boundary::kClosed);
   if (!shadow) {

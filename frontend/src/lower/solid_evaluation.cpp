@@ -203,7 +203,7 @@ SolidValue SolidEvaluation::round_solid(const RoundNode& round) {
   if (!csgcore::has_valid_shape(primitive)) return {};
   SolidPart part = part_of(primitive, round.facets);
   if (keeps_facets(options_, round.facets)) {
-    const int fragments = traits_of(primitive.shape).fragments(primitive, round.facets);
+    const int fragments = traits_of(primitive.shape()).fragments(primitive, round.facets);
     if (sources_.polyhedra.facet(primitive, fragments)) part.primitive = std::move(primitive);
   }
   return value_of(std::move(part));

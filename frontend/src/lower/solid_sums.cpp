@@ -88,7 +88,8 @@ Vec3 end_of(const Generators& generators, double sign) {
 
 /// The extrusion between the places of its ends where it is moved to these points, by its lower and
 /// its upper end: its layers are moved along the line between them.
-void stretch(const Vec3& lower, const Vec3& upper, Primitive& extrusion) {
+void stretch(const Vec3& lower, const Vec3& upper, Primitive& primitive) {
+  auto& extrusion = primitive.as<csgcore::ExtrusionShape>();
   extrusion.z_min += lower.z;
   extrusion.z_max += upper.z;
   Affine leaning;
@@ -96,7 +97,7 @@ void stretch(const Vec3& lower, const Vec3& upper, Primitive& extrusion) {
   leaning.linear[2].z = 1;
   leaning.translation = lower - extrusion.z_min * leaning.linear[2];
   leaning.translation.z = 0;
-  extrusion.local_to_world = compose(extrusion.local_to_world, leaning);
+  primitive.local_to_world = compose(primitive.local_to_world, leaning);
 }
 
 }  // namespace
@@ -116,9 +117,9 @@ void SolidSums::add(const SolidPart& a, const SolidPart& b) {
   const SolidPart& other = a.is_convex() ? b : a;
   if (!convex.is_convex()) {
     fail(kBecauseTwoAreNotConvex);
-  } else if (other.primitive->shape == Shape::kMesh) {
+  } else if (other.primitive->mesh()) {
     add_mesh(other, convex, box);
-  } else if (other.primitive->shape == Shape::kExtrusion) {
+  } else if (other.primitive->shape() == Shape::kExtrusion) {
     add_extrusion(other, convex, box);
   } else {
     fail("one of its operands is round and not convex");
@@ -146,13 +147,13 @@ void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& 
 void SolidSums::add_mesh(const SolidPart& part, const SolidPart& convex, const Box& box) {
   const SupportSet support = support_of(convex);
   const Primitive& mesh = *part.primitive;
-  if (mesh.mesh->triangles().size() > kMostSums) return fail(kBecauseManyFaces);
-  if (!mesh.mesh->is_closed()) return fail("one of its operands is an open mesh");
+  if (mesh.mesh()->triangles().size() > kMostSums) return fail(kBecauseManyFaces);
+  if (!mesh.mesh()->is_closed()) return fail("one of its operands is an open mesh");
   sums_.push_back(moved(part, support.generators.front().center, box));
-  for (const auto& triangle : mesh.mesh->triangles()) {
+  for (const auto& triangle : mesh.mesh()->triangles()) {
     std::array<Vec3, 3> corners;
     for (size_t i = 0; i < 3; ++i) {
-      corners[i] = mesh.local_to_world.point(mesh.mesh->vertices()[triangle[i]]);
+      corners[i] = mesh.local_to_world.point(mesh.mesh()->vertices()[triangle[i]]);
     }
     add_convex(face_support(corners, part), support, box);
   }
@@ -162,10 +163,10 @@ void SolidSums::add_mesh(const SolidPart& part, const SolidPart& convex, const B
 /// and the sum of the body and each wall. Where the body, turned around, meets the extrusion but no
 /// wall, all of its sections lie within the profile, and that line has one at each height.
 void SolidSums::add_extrusion(const SolidPart& part, const SolidPart& convex, const Box& box) {
-  const Primitive& extrusion = *part.primitive;
-  const Affine& map = extrusion.local_to_world;
+  const auto& extrusion = part.primitive->as<csgcore::ExtrusionShape>();
+  const Affine& map = part.primitive->local_to_world;
   SupportSet local = support_of(convex);
-  if (map.determinant() == 0 || extrusion.r_bottom != extrusion.r_top) {
+  if (map.determinant() == 0 || extrusion.scale_bottom != extrusion.scale_top) {
     return fail("one of its operands is a tapered or flat extrusion");
   }
   map_all({csgcore::inverse(map.linear), Vec3(0.0)}, local.generators);
@@ -173,7 +174,7 @@ void SolidSums::add_extrusion(const SolidPart& part, const SolidPart& convex, co
   stretch(end_of(local.generators, -1), end_of(local.generators, 1), *core.primitive);
   sums_.push_back(moved(std::move(core), Vec3(0.0), box));
   const SupportSet support = support_of(convex);
-  const double scale = extrusion.r_bottom;
+  const double scale = extrusion.scale_bottom;
   const auto add_wall = [&](const Vec2& a, const Vec2& b) {
     const std::array<Vec3, 4> corners{
         map.point(Vec3(scale * a, extrusion.z_min)), map.point(Vec3(scale * b, extrusion.z_min)),

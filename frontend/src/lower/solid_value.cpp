@@ -19,7 +19,6 @@ using csgcore::Box;
 using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 template <typename Points>
@@ -36,26 +35,12 @@ constexpr int kMostFragments = 180;
 Box box_of(const Primitive& primitive, const csgcore::FacetSettings& facets) {
   const Affine& map = primitive.local_to_world;
   if (is_axis_aligned(map)) return faceted_box(primitive, facets);
-  const auto fragments = [&] {
-    return std::min(kMostFragments, traits_of(primitive.shape).fragments(primitive, facets));
-  };
-  switch (primitive.shape) {
-    case Shape::kPolyhedron:
-      return box_of_points(map, primitive.polyhedron->vertices());
-    case Shape::kMesh:
-      return box_of_points(map, primitive.mesh->vertices());
-    case Shape::kSphere:
-      return box_of_points(map, csgcore::sphere_mesh(primitive.r_bottom, fragments()).vertices);
-    case Shape::kFrustum:
-      return box_of_points(
-          map, csgcore::frustum_mesh(primitive.z_min, primitive.z_max, primitive.r_bottom,
-                                     primitive.r_top, fragments())
-                   .vertices);
-    case Shape::kExtrusion:
-    case Shape::kRevolution:
-      break;
-  }
-  return faceted_box(primitive, facets);
+  if (primitive.polyhedron()) return box_of_points(map, primitive.polyhedron()->vertices());
+  if (primitive.mesh()) return box_of_points(map, primitive.mesh()->vertices());
+  const int fragments =
+      std::min(kMostFragments, traits_of(primitive.shape()).fragments(primitive, facets));
+  if (fragments == 0) return faceted_box(primitive, facets);
+  return box_of_points(map, csgcore::faceted_mesh(primitive, fragments).vertices);
 }
 
 /// The half-lengths of a generator's round parts along each axis.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
@@ -19,7 +21,6 @@ namespace frontend {
 namespace {
 
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 /// The faces are convex.
@@ -38,10 +39,6 @@ TriangleSet triangles_of(const csgcore::TriangleMesh& mesh) {
           {mesh.triangles().begin(), mesh.triangles().end()}};
 }
 
-TriangleSet triangles_of(const csgcore::Polyhedron& polyhedron) {
-  return {polyhedron.vertices(), point_hull(on_grid(polyhedron.vertices())).triangles};
-}
-
 /// Nothing is left of a profile whose edges cross too often.
 SimplePolygons polygons_of(const csgcore::Profile& profile) {
   const Figure figure =
@@ -49,47 +46,41 @@ SimplePolygons polygons_of(const csgcore::Profile& profile) {
   return united(std::span(&figure, 1)).value_or(SimplePolygons{});
 }
 
-TriangleSet triangles_of_extrusion(const Primitive& extrusion) {
+template <class RoundShape>
+TriangleSet triangles_of(const RoundShape& shape) {
+  return triangles_of(csgcore::faceted_mesh({shape, {}}, kChordsOfCircle));
+}
+
+TriangleSet triangles_of(const csgcore::PolyhedronShape& shape) {
+  const std::vector<Vec3>& vertices = shape.polyhedron->vertices();
+  return {vertices, point_hull(on_grid(vertices)).triangles};
+}
+
+TriangleSet triangles_of(const csgcore::MeshShape& shape) { return triangles_of(*shape.mesh); }
+
+TriangleSet triangles_of(const csgcore::ExtrusionShape& extrusion) {
   SimplePolygons polygons = polygons_of(*extrusion.profile);
   for (Polygon& polygon : polygons) {
-    for (Vec2& point : polygon) point *= extrusion.r_bottom;
+    for (Vec2& point : polygon) point *= extrusion.scale_bottom;
   }
   const TwistedLayers layers{extrusion.z_min, extrusion.z_max, 0,
-                             Vec2(extrusion.r_top / extrusion.r_bottom)};
+                             Vec2(extrusion.scale_top / extrusion.scale_bottom)};
   Slicing slicing{1, std::move(polygons), {}};
   slicing.offsets.resize(slicing.outline.size());
-  return triangles_of(*sliced_mesh(layers, slicing).mesh);
+  return triangles_of(*sliced_mesh(layers, slicing).mesh());
 }
 
-TriangleSet triangles_of_revolution(const Primitive& revolution) {
+TriangleSet triangles_of(const csgcore::RevolutionShape& revolution) {
   TurnSections sections;
   sections.count = kChordsOfCircle;
-  return triangles_of(*revolved_mesh(polygons_of(*revolution.profile), sections).mesh);
-}
-
-TriangleSet local_triangles_of(const Primitive& primitive) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return triangles_of(csgcore::sphere_mesh(primitive.r_bottom, kChordsOfCircle));
-    case Shape::kFrustum:
-      return triangles_of(csgcore::frustum_mesh(
-          primitive.z_min, primitive.z_max, primitive.r_bottom, primitive.r_top, kChordsOfCircle));
-    case Shape::kPolyhedron:
-      return triangles_of(*primitive.polyhedron);
-    case Shape::kMesh:
-      return triangles_of(*primitive.mesh);
-    case Shape::kExtrusion:
-      return triangles_of_extrusion(primitive);
-    case Shape::kRevolution:
-      return triangles_of_revolution(primitive);
-  }
-  return {};
+  return triangles_of(*revolved_mesh(polygons_of(*revolution.profile), sections).mesh());
 }
 
 }  // namespace
 
 TriangleSet triangles_of(const Primitive& primitive) {
-  TriangleSet result = local_triangles_of(primitive);
+  TriangleSet result =
+      std::visit([](const auto& shape) { return triangles_of(shape); }, primitive.solid);
   csgcore::Box box;
   for (Vec3& vertex : result.vertices) {
     vertex = primitive.local_to_world.point(vertex);

@@ -63,8 +63,8 @@ class FacetEdgePainter {
 
   void draw_edges_of(uint32_t id) {
     const Primitive& primitive = *meshes_.primitive_of(id);
-    if (primitive.mesh) {
-      draw_triangles(id, *primitive.mesh, primitive.local_to_world);
+    if (primitive.mesh()) {
+      draw_triangles(id, *primitive.mesh(), primitive.local_to_world);
       return;
     }
     const FacetMesh& facets = meshes_.facets_of(primitive);
@@ -154,11 +154,11 @@ class FacetEdgePainter {
       return primitive.cut_faces == csgcore::CutFaces::kAlways;
     }
     const Vec3 normal(image_.normal[pixel]), position(image_.position[pixel]);
-    if (primitive.mesh) {
+    if (primitive.mesh()) {
       const double step = kInFace * glm::distance(position, view_.eye);
       return csgcore::contains(canonical_of(primitive), position + step * normal);
     }
-    const Vec3 center = primitive.local_to_world.point(primitive.polyhedron->canonical().center);
+    const Vec3 center = primitive.local_to_world.point(primitive.polyhedron()->canonical().center);
     return glm::dot(normal, position - center) < 0;
   }
 

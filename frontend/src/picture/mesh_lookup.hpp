@@ -21,7 +21,7 @@ class MeshLookup {
   }
   /// Returns OpenSCAD's mesh of a polyhedron of primitive_of(), in its local coordinates.
   const FacetMesh& facets_of(const csgcore::Primitive& primitive) const {
-    return facets_.at(primitive.polyhedron.get());
+    return facets_.at(primitive.polyhedron());
   }
 
  private:

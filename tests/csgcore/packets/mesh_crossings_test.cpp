@@ -36,7 +36,7 @@ using test_support::Variant;
 class LongMesh {
  public:
   LongMesh(const Primitive& primitive, const Vec3& pivot)
-      : mesh_(*primitive.mesh),
+      : mesh_(*primitive.mesh()),
         local_to_world_(primitive.local_to_world.linear),
         world_to_local_(glm::inverse(local_to_world_)),
         pivot_from_origin_(LongVec3(pivot) - LongVec3(primitive.local_to_world.translation)) {}
@@ -101,7 +101,7 @@ class LongMesh {
 /// Returns a ray through a vertex, a point of an edge or of a face, in a direction that is often
 /// along an edge, a face or an axis; relative to the pivot.
 PivotRay ray_at_a_feature(const Primitive& primitive, const Vec3& pivot, std::mt19937& random) {
-  const TriangleMesh& mesh = *primitive.mesh;
+  const TriangleMesh& mesh = *primitive.mesh();
   const auto triangle = [&] { return mesh.triangles()[random() % mesh.triangles().size()]; };
   const auto vertex = [&](uint32_t i) { return mesh.vertices()[i]; };
   const auto [a, b, c] = triangle();
@@ -169,7 +169,7 @@ TEST_P(MeshCrossingsOf, RaysAreThoseOfExtendedPrecision) {
           const Real bound = oracle.error_bound(ray);
           std::vector<uint32_t> expected, found;
           for (const MeshPassage& passage :
-               reference::passages(*primitive.mesh, mesh.to_local(ray))) {
+               reference::passages(*primitive.mesh(), mesh.to_local(ray))) {
             expected.push_back(passage.triangle);
           }
           int turns = 0;
@@ -179,15 +179,15 @@ TEST_P(MeshCrossingsOf, RaysAreThoseOfExtendedPrecision) {
             const Real off = mesh.displacement(ray, crossing.face, crossing.t);
             worst = std::max(worst, static_cast<double>(off / bound));
             if (off > bound) {
-              const auto& tr = primitive.mesh->triangles()[crossing.face];
+              const auto& tr = primitive.mesh()->triangles()[crossing.face];
               const auto nl = mesh.to_local(ray);
-              auto seen = reference::passages(*primitive.mesh, nl);
+              auto seen = reference::passages(*primitive.mesh(), nl);
               printf("off %Lg bound %Lg t %g edges %Lg\n", off, bound, crossing.t,
                      mesh.from_edges(ray, crossing.face));
               printf("local o %.17Lg %.17Lg %.17Lg d %.17Lg %.17Lg %.17Lg\n", nl.origin.x,
                      nl.origin.y, nl.origin.z, nl.direction.x, nl.direction.y, nl.direction.z);
               for (auto v : tr) {
-                auto p = primitive.mesh->vertices()[v];
+                auto p = primitive.mesh()->vertices()[v];
                 printf("  v %.17g %.17g %.17g\n", p.x, p.y, p.z);
               }
               for (auto p : seen)

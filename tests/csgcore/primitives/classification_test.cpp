@@ -45,9 +45,7 @@ struct Sampled {
   bool leaves = false;  // some point of the cell is not in the primitive
 };
 
-bool is_convex(const Primitive& primitive) {
-  return test_support::test_kind_of(primitive.shape).is_convex();
-}
+bool is_convex(const Primitive& primitive) { return csgcore::is_convex(primitive.shape()); }
 
 Sampled sample(const Primitive& primitive, const std::vector<Vec3>& points, const Box& cell) {
   const int grid = is_convex(primitive) ? 12 : 5;
@@ -139,7 +137,7 @@ constexpr NamedMap kMaps[] = {
 constexpr test_support::SizeRange kSizes{.low = 0.5, .high = 2, .most_fragments = 24};
 
 bool is_told_tightly(const Primitive& primitive) {
-  return test_support::test_kind_of(primitive.shape).is_told_tightly();
+  return test_support::test_kind_of(primitive.shape()).is_told_tightly();
 }
 
 class ClassificationOf : public testing::TestWithParam<std::tuple<Variant, NamedMap>> {
@@ -220,7 +218,7 @@ struct WaysOut {
     const Mat3 world_to_local = glm::inverse(primitive.local_to_world.linear);
     const Vec3 local = world_to_local * (center - primitive.local_to_world.translation);
     for (const test_support::Side& side :
-         test_support::test_kind_of(primitive.shape).sides(primitive, LongVec3(local))) {
+         test_support::test_kind_of(primitive.shape()).sides(primitive, LongVec3(local))) {
       const Vec3 gradient = glm::transpose(world_to_local) * Vec3(side.gradient);
       directions.push_back(glm::normalize(gradient));
       nearest = std::min(nearest, -static_cast<double>(side.outside) / glm::length(gradient));
@@ -297,7 +295,7 @@ Real exact_excess(const Primitive& primitive, const Vec3& point) {
                          (LongVec3(point) - LongVec3(map.translation));
   Real excess = -std::numeric_limits<Real>::infinity();
   for (const test_support::Side& side :
-       test_support::test_kind_of(primitive.shape).sides(primitive, local)) {
+       test_support::test_kind_of(primitive.shape()).sides(primitive, local)) {
     excess = std::max(excess, side.outside);
   }
   return excess;
@@ -350,7 +348,7 @@ TEST(Classification, ExtremeSizes) {
     test_support::Sizes sizes(random, kSizes);
     const Primitive primitive = test_support::random_primitive(sizes, map);
     if (!is_valid(primitive)) continue;
-    const test_support::TestKind& kind = test_support::test_kind_of(primitive.shape);
+    const test_support::TestKind& kind = test_support::test_kind_of(primitive.shape());
     const CanonicalPrimitive canonical = canonicalize(primitive);
     for (int i = 0; i < 20; ++i) {
       // A point of the solid, as exact as coordinates of 1e12 allow, and a cell around it.

@@ -65,7 +65,7 @@ class CanonicalPrimitiveOf : public testing::TestWithParam<test_support::Variant
   /// Answers about solids that are not convex are by brute force: fewer of them are asked for.
   int rounds(int of_convex) const {
     std::mt19937 random(1);
-    const bool is_convex = test_support::test_kind_of(make(random).shape).is_convex();
+    const bool is_convex = csgcore::is_convex(make(random).shape());
     return is_convex ? of_convex : of_convex / 5;
   }
 };

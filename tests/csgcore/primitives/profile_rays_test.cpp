@@ -17,7 +17,6 @@
 #include "csgcore/tracer.hpp"
 #include "primitives/intersect.hpp"
 #include "primitives/revolution_path.hpp"
-#include "primitives/revolution_piece.hpp"
 #include "profile_figures.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"
@@ -245,12 +244,12 @@ class HardRays {
   }
   Vec3 surface_point() {
     const ProfileLoop& loop =
-        primitive_.profile->loops()[random_() % primitive_.profile->loops().size()];
+        primitive_.profile()->loops()[random_() % primitive_.profile()->loops().size()];
     const size_t i = random_() % loop.size();
     const Vec2 start = i == 0 ? loop.back().end : loop[i - 1].end;
     const double at = random_() % 2 ? static_cast<double>(random_() % 2) : uniform(random_, 0, 1);
     const checks::EdgePoint edge = checks::edge_point(start, loop[i], at);
-    if (primitive_.shape == Shape::kRevolution) {
+    if (primitive_.shape() == Shape::kRevolution) {
       const double angle = random_() % 2 ? 0 : uniform(random_, 0, 6);
       const double c = std::cos(angle), s = std::sin(angle);
       tangent_ = {c * edge.tangent.x, s * edge.tangent.x, edge.tangent.y};
@@ -260,11 +259,10 @@ class HardRays {
     }
     const double share =
         random_() % 2 ? static_cast<double>(random_() % 2) : uniform(random_, 0, 1);
-    const double low = primitive_.r_bottom, high = primitive_.r_top;
+    const auto& [profile, z_min, z_max, low, high] = primitive_.as<ExtrusionShape>();
     const auto at_share = [&](const Vec2& p, double u) {
       const double scale = low + u * (high - low);
-      return Vec3{scale * p.x, scale * p.y,
-                  primitive_.z_min + u * (primitive_.z_max - primitive_.z_min)};
+      return Vec3{scale * p.x, scale * p.y, z_min + u * (z_max - z_min)};
     };
     tangent_ = {edge.tangent.x, edge.tangent.y, 0};
     along_ = at_share(edge.place, 1) - at_share(edge.place, 0);
@@ -407,8 +405,8 @@ TEST(Revolutions, HaveLoopsThatAreLeftAsOftenAsEntered) {
       RevolutionPath path;
       if (!find_path(origin, direction, inverse, path)) continue;
       std::vector<Crossing> found;
-      for (const Profile::Piece& piece : primitive.profile->pieces()) {
-        cross_piece(*primitive.profile, path, piece, 0, found);
+      for (const Profile::Piece& piece : primitive.profile()->pieces()) {
+        cross_piece(*primitive.profile(), path, piece, 0, found);
       }
       int turns = 0;
       for (const Crossing& crossing : found) turns += crossing.turn;

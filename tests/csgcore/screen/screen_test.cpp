@@ -227,8 +227,8 @@ TEST(ScreenExtents, AreTight) {
       if (!is_visible(extent)) continue;
       if (is_perspective && nearest_t(extent) < screen.frame.first_t + 1) continue;
       // What encloses it is shown in its place.
-      if (!test_support::test_kind_of(primitives[i].shape).is_told_tightly()) continue;
-      const Polyhedron* polyhedron = primitives[i].polyhedron.get();
+      if (!test_support::test_kind_of(primitives[i].shape()).is_told_tightly()) continue;
+      const Polyhedron* polyhedron = primitives[i].polyhedron();
       if (polyhedron && polyhedron->vertices().size() > 64) continue;
       glm::dvec2 low(1e9), high(-1e9);
       double beyond[2] = {-1e9, -1e9};  // how far the furthest point is beyond the lines
@@ -262,7 +262,7 @@ TEST(ScreenExtents, AreTight) {
         ASSERT_NEAR(screen.corners[i].high[corner], most[corner], slack);
         ++tight_corners;
       }
-      const bool shows_wall = primitives[i].shape == Shape::kFrustum;
+      const bool shows_wall = primitives[i].shape() == Shape::kFrustum;
       if (!screen.has_slab(i) || (!shows_wall && !polyhedron)) continue;
       for (const int line : {0, 1}) {
         if (slab.limit[line] == std::numeric_limits<float>::infinity()) continue;

@@ -104,7 +104,7 @@ TEST(EqualOperands, ToldByShapeNumbersAndMatrixAlone) {
   scene.primitives[1].id = 7;
   EXPECT_TRUE(can_merge());
   const Primitive kept = scene.primitives[1];
-  scene.primitives[1].r_bottom = 3.0000000001;
+  scene.primitives[1].as<SphereShape>().radius = 3.0000000001;
   EXPECT_FALSE(can_merge());
   scene.primitives[1] = kept;
   scene.primitives[1].local_to_world.linear[1][0] = 1e-9;

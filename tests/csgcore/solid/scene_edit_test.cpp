@@ -83,11 +83,11 @@ TEST(SceneEdit, EachParameterCounts) {
     return !same_shape(frustum, other) && !same_shape(other, frustum);
   };
   EXPECT_TRUE(same_shape(frustum, frustum));
-  EXPECT_TRUE(differs([](Primitive& p) { p.shape = Shape::kSphere; }));
-  EXPECT_TRUE(differs([](Primitive& p) { p.z_min = -2; }));
-  EXPECT_TRUE(differs([](Primitive& p) { p.z_max = 1; }));
-  EXPECT_TRUE(differs([](Primitive& p) { p.r_bottom = 1; }));
-  EXPECT_TRUE(differs([](Primitive& p) { p.r_top = 1; }));
+  EXPECT_TRUE(differs([](Primitive& p) { p.solid = SphereShape{4}; }));
+  EXPECT_TRUE(differs([](Primitive& p) { p.as<FrustumShape>().z_min = -2; }));
+  EXPECT_TRUE(differs([](Primitive& p) { p.as<FrustumShape>().z_max = 1; }));
+  EXPECT_TRUE(differs([](Primitive& p) { p.as<FrustumShape>().r_bottom = 1; }));
+  EXPECT_TRUE(differs([](Primitive& p) { p.as<FrustumShape>().r_top = 1; }));
   EXPECT_TRUE(differs([](Primitive& p) { p.local_to_world.linear[1][2] = 1e-300; }));
   EXPECT_TRUE(differs([](Primitive& p) { p.local_to_world.translation.z = 1e-300; }));
   EXPECT_FALSE(differs([](Primitive& p) { p.color = Color{}; }));

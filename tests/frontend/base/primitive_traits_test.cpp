@@ -47,7 +47,7 @@ void expect_same(const Vec3& a, const Vec3& b, double tolerance = kRounding) {
 TEST(PrimitiveTraits, SizesAreTheSolids) {
   const Defaults defaults;
   for (const Primitive& primitive : samples()) {
-    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    const PrimitiveTraits& traits = traits_of(primitive.shape());
     const double extent = defaults.extent(primitive);
     EXPECT_GE(traits.extent(primitive), extent * (1 - kRounding));
     EXPECT_LE(traits.extent(primitive), 2 * extent);
@@ -69,9 +69,9 @@ TEST(PrimitiveTraits, DefaultsDoNotDependOnTheMatrix) {
 
 TEST(PrimitiveTraits, FacetsHaveTheFacetedBox) {
   for (const Primitive& primitive : samples()) {
-    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    const PrimitiveTraits& traits = traits_of(primitive.shape());
     for (const int fragments : {3, 4, 5, 6, 7, 30}) {
-      const auto faceted = traits.faceted(primitive, fragments);
+      const auto faceted = csgcore::faceted_polyhedron(primitive, fragments);
       if (!faceted) continue;
       Box box;
       for (const Vec3& vertex : faceted->vertices()) box.merge(vertex);
@@ -82,15 +82,24 @@ TEST(PrimitiveTraits, FacetsHaveTheFacetedBox) {
   }
 }
 
+TEST(PrimitiveTraits, MeshesAreThoseOfTheFacets) {
+  for (const Primitive& primitive : samples()) {
+    const csgcore::Mesh mesh = csgcore::faceted_mesh(primitive, 9);
+    const auto expected = test_support::test_kind_of(primitive.shape()).faceted(primitive, 9);
+    EXPECT_EQ(mesh.vertices, expected ? expected->mesh.vertices : std::vector<Vec3>{});
+    EXPECT_EQ(mesh.faces.size(), expected ? expected->mesh.faces.size() : 0);
+  }
+}
+
 TEST(PrimitiveTraits, FacetsAreThoseOfTheUnit) {
   for (const Primitive& primitive : samples()) {
-    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    const PrimitiveTraits& traits = traits_of(primitive.shape());
     if (traits.fragments(primitive, {}) == 0) continue;
     EXPECT_EQ(traits.fragments(primitive, {.fn = 7}), 7);
     for (const int fragments : {3, 6, 11}) {
       const Faceting faceting = traits.faceting(primitive, fragments);
-      const auto unit = traits.faceted(faceting.unit, fragments);
-      const auto faceted = traits.faceted(primitive, fragments);
+      const auto unit = csgcore::faceted_polyhedron(faceting.unit, fragments);
+      const auto faceted = csgcore::faceted_polyhedron(primitive, fragments);
       ASSERT_TRUE(unit && faceted);
       EXPECT_GE(faceting.faces, faceted->half_spaces().size());
       ASSERT_EQ(unit->vertices().size(), faceted->vertices().size());
@@ -103,7 +112,7 @@ TEST(PrimitiveTraits, FacetsAreThoseOfTheUnit) {
 
 TEST(PrimitiveTraits, FacetsOfOneSizeAreTheSameUnits) {
   const auto unit_of = [](const Primitive& primitive) {
-    return local_solid(traits_of(primitive.shape).faceting(primitive, 6).unit);
+    return traits_of(primitive.shape()).faceting(primitive, 6).unit.solid;
   };
   EXPECT_EQ(unit_of(csgcore::make_sphere(2)), unit_of(csgcore::make_sphere(3)));
   EXPECT_EQ(unit_of(csgcore::make_frustum(0, 1, 2, 1)), unit_of(csgcore::make_frustum(3, 9, 4, 2)));
@@ -113,7 +122,7 @@ TEST(PrimitiveTraits, FacetsOfOneSizeAreTheSameUnits) {
 TEST(PrimitiveTraits, PlaneFacesBoundTheSolid) {
   for (const Primitive& primitive : samples()) {
     PlaneFaces found;
-    traits_of(primitive.shape).find_plane_faces(primitive, found);
+    traits_of(primitive.shape()).find_plane_faces(primitive, found);
     EXPECT_LE(found.faces.size(), kMostComparedFaces);
     for (uint32_t i = 0; i < found.faces.size(); ++i) {
       const PlaneFace& face = found.faces[i];
@@ -130,7 +139,7 @@ TEST(PrimitiveTraits, PlaneFacesBoundTheSolid) {
       }
       // The middle of a mesh's face may lie beside it, but not that of a triangle.
       const auto corners = found.corners_of(face);
-      const bool is_convex = test_support::test_kind_of(primitive.shape).is_convex();
+      const bool is_convex = csgcore::is_convex(primitive.shape());
       const Vec3 within = is_convex ? face.center : (corners[0] + corners[1] + corners[2]) / 3.0;
       const Vec3 step = 1e-6 * face.normal;
       EXPECT_NE(holds(primitive, within + step), holds(primitive, within - step));
@@ -142,10 +151,10 @@ TEST(PrimitiveTraits, WhatIsRoundStaysWhenItIsTurned) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-5, 5);
   for (const Primitive& primitive : samples()) {
-    const Roundness roundness = traits_of(primitive.shape).roundness(primitive);
+    const Roundness roundness = traits_of(primitive.shape()).roundness(primitive);
     if (roundness.about == Roundness::About::kNothing) continue;
     EXPECT_LE(std::max(roundness.radii[0], roundness.radii[1]),
-              traits_of(primitive.shape).extent(primitive));
+              traits_of(primitive.shape()).extent(primitive));
     const bool has_axis = roundness.about == Roundness::About::kAxis;
     EXPECT_EQ(has_axis, roundness.axis_z[0] != roundness.axis_z[1]);
     int inside = 0;
@@ -165,7 +174,7 @@ TEST(PrimitiveTraits, RadialPlacesAreTheSmoothSurfaces) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-5, 5);
   for (const Primitive& primitive : samples()) {
-    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    const PrimitiveTraits& traits = traits_of(primitive.shape());
     int within = 0;
     for (int i = 0; i < 500; ++i) {
       const Vec3 point(coordinate(random), coordinate(random), coordinate(random));

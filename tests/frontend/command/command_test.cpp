@@ -162,9 +162,9 @@ TEST_F(Command, HandsItsOptionsToTheRenderer) {
 TEST_F(Command, FacetsAreAsAsked) {
   const std::string nut = folder_.write("nut.csg", "cylinder($fn = 6, r = 1, h = 1);\n");
   EXPECT_EQ(run({"-o", png_, nut}).err, "");
-  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kPolyhedron);
+  EXPECT_EQ(scene_.primitives.at(0).shape(), csgcore::Shape::kPolyhedron);
   EXPECT_EQ(run({"-o", png_, "--facets=none", nut}).err, "");
-  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kFrustum);
+  EXPECT_EQ(scene_.primitives.at(0).shape(), csgcore::Shape::kFrustum);
 }
 
 TEST_F(Command, WithoutACameraTheDesignFillsThePicture) {
@@ -589,7 +589,7 @@ TEST_F(Command, AnAnimation) {
   EXPECT_EQ(outcome.err, "ECHO: 0\nECHO: 0.3333333333333333\nECHO: 0.6666666666666666\n");
   EXPECT_EQ(outcome.code, ExitCode::kDone);
   EXPECT_EQ(drawings_, 3);
-  EXPECT_EQ(scene_.primitives[0].r_bottom, 10.6666666666666666);
+  EXPECT_EQ(scene_.primitives[0].as<csgcore::SphereShape>().radius, 10.6666666666666666);
   std::string targets;
   for (const char* number : {"00000", "00001", "00002"}) {
     const std::string png = std::string("x.y") + number + ".png",
@@ -608,7 +608,7 @@ TEST_F(Command, AnAnimation) {
 TEST_F(Command, AnAnimationsTimeIsKnownToTheDesignsOwnVariables) {
   const std::string scad = folder_.write("a.scad", "r = 1 + $t; sphere(r);");
   EXPECT_EQ(run({"-o", png_, "--evaluator=own", "--animate=4", scad}).err, "");
-  EXPECT_EQ(scene_.primitives[0].r_bottom, 1.75);
+  EXPECT_EQ(scene_.primitives[0].as<csgcore::SphereShape>().radius, 1.75);
 }
 
 TEST_F(Command, AnAnimationOfACsgShowsTheSameAgainAndAgain) {

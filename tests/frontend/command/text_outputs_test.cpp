@@ -184,7 +184,8 @@ TEST_F(EvaluatedDesign, TakesVariablesWhateverItsName) {
     scene_ = {};
     arguments.insert(arguments.end(), {"-o", folder_ / "x.png", file});
     EXPECT_EQ(run(arguments).code, ExitCode::kDone) << file;
-    return scene_.primitives.empty() ? 0 : scene_.primitives.back().r_bottom;
+    return scene_.primitives.empty() ? 0
+                                     : scene_.primitives.back().as<csgcore::SphereShape>().radius;
   };
   const std::string plain = folder_.write("design", "cube(10); sphere(3);");
   EXPECT_EQ(size(plain, {}), 3);
@@ -413,7 +414,7 @@ TEST_F(EvaluatedDesign, IsDrawnAfterErrorsThatOpenScadGoesOnAfter) {
   EXPECT_THAT(said.err, testing::ContainsRegex("^ERROR: Parser error: syntax error in file .*\n"
                                                "ERROR: Cannot open Parameter Set .*\n"
                                                "ECHO: 1\n"));
-  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kSphere);
+  EXPECT_EQ(scene_.primitives.at(0).shape(), csgcore::Shape::kSphere);
   const Said failed = run({"-o", png, design("include <broken.scad>\nsphere(1);")});
   EXPECT_EQ(failed.code, ExitCode::kFailure);
 }

@@ -241,9 +241,9 @@ TEST_P(Follow, HullsThatAreTheSameAreNotMadeAnew) {
   const DesignVersion first = design.next_of(3);
   folder_.write("a.csg", "sphere(1);" + hull + "sphere(2);");
   const DesignVersion second = design.next_of(4);
-  EXPECT_NE(first.design->scene.primitives[0].polyhedron, nullptr);
-  EXPECT_EQ(first.design->scene.primitives[0].polyhedron,
-            second.design->scene.primitives[1].polyhedron);
+  EXPECT_NE(first.design->scene.primitives[0].polyhedron(), nullptr);
+  EXPECT_EQ(first.design->scene.primitives[0].polyhedron(),
+            second.design->scene.primitives[1].polyhedron());
 }
 
 TEST_P(Follow, OtherFilesOfTheFolderDoNotMatter) {

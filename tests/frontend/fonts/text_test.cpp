@@ -90,13 +90,13 @@ TEST_F(Text, HasAPrimitiveForEachLetterWithInk) {
   ASSERT_THAT(design.scene.primitives, SizeIs(7));
   std::set<const csgcore::Profile*> profiles;
   for (const csgcore::Primitive& letter : design.scene.primitives) {
-    EXPECT_EQ(letter.shape, Shape::kExtrusion);
+    EXPECT_EQ(letter.shape(), Shape::kExtrusion);
     EXPECT_EQ(letter.id, 0u);
-    profiles.insert(letter.profile.get());
+    profiles.insert(letter.profile());
   }
   EXPECT_THAT(profiles, SizeIs(3)) << "equal letters share n, o, i";
   const ImportedDesign larger = import_with_fonts(extruded(text("o", "size = 72")));
-  EXPECT_TRUE(profiles.contains(larger.scene.primitives[0].profile.get()))
+  EXPECT_TRUE(profiles.contains(larger.scene.primitives[0].profile()))
       << "of any size, and from one import to the next";
 }
 
@@ -104,7 +104,7 @@ TEST_F(Text, KeepsTheFontsCurves) {
   const auto curves_of = [](const std::string& arguments, ImportOptions options = {}) {
     const ImportedDesign design = import_with_fonts(extruded(text("o", arguments)), options);
     size_t curves = 0, edges = 0;
-    for (const csgcore::ProfileLoop& loop : design.scene.primitives.at(0).profile->loops()) {
+    for (const csgcore::ProfileLoop& loop : design.scene.primitives.at(0).profile()->loops()) {
       for (const csgcore::ProfileEdge& edge : loop) {
         curves += edge.kind == csgcore::ProfileEdge::Kind::kBezier;
         ++edges;
@@ -288,7 +288,7 @@ TEST_F(Text, IsInPartsWhatIsInOne) {
     ASSERT_THAT(many, SizeIs(9000));
     const double step = many[9].local_to_world.translation.x - many[0].local_to_world.translation.x;
     for (size_t i = 0; i < many.size(); ++i) {
-      ASSERT_EQ(many[i].profile, few[i % 9].profile) << i;
+      ASSERT_EQ(many[i].profile(), few[i % 9].profile()) << i;
       ASSERT_NEAR(many[i].local_to_world.translation.x,
                   few[i % 9].local_to_world.translation.x + step * static_cast<double>(i / 9), 1e-6)
           << i;

@@ -80,7 +80,8 @@ std::string exported(const std::string& scad) {
 std::vector<Primitive> import_scad(const std::string& scad) { return import_text(exported(scad)); }
 
 Vec3 cap_center(const Primitive& primitive, int cap) {
-  return primitive.local_to_world.point(Vec3(0, 0, cap == 0 ? primitive.z_min : primitive.z_max));
+  const auto& frustum = primitive.as<csgcore::FrustumShape>();
+  return primitive.local_to_world.point(Vec3(0, 0, cap == 0 ? frustum.z_min : frustum.z_max));
 }
 
 Vec3 cap_normal(const Primitive& primitive) {
@@ -90,7 +91,8 @@ Vec3 cap_normal(const Primitive& primitive) {
 
 /// Returns how far the cap of `b` leaves the plane of the cap of `a`, at most.
 double plane_gap(const Primitive& a, int cap_a, const Primitive& b, int cap_b) {
-  const double radius = cap_b == 0 ? b.r_bottom : b.r_top;
+  const auto& frustum = b.as<csgcore::FrustumShape>();
+  const double radius = cap_b == 0 ? frustum.r_bottom : frustum.r_top;
   double gap = 0;
   for (int i = 0; i < 12; ++i) {
     const double angle = i * M_PI / 6;
@@ -370,8 +372,8 @@ TEST(HealingFeatures, WhatIsExactLeadsWhereverItStands) {
 TEST(HealingFeatures, WhatIsRoundIsHealedBeforeItGetsFacets) {
   const std::vector<Primitive> primitives = import_scad(
       "cylinder(r = 1, h = 5, $fn = 6); scale([1/3, 1/3, 1]) cylinder(r = 3, h = 4, $fn = 6);");
-  ASSERT_EQ(primitives[1].shape, csgcore::Shape::kPolyhedron);
-  EXPECT_EQ(primitives[0].polyhedron, primitives[1].polyhedron);
+  ASSERT_EQ(primitives[1].shape(), csgcore::Shape::kPolyhedron);
+  EXPECT_EQ(primitives[0].polyhedron(), primitives[1].polyhedron());
   EXPECT_NEAR(glm::length(primitives[1].local_to_world.linear[0]), 1, kAgrees);
 }
 
@@ -542,7 +544,7 @@ TEST(HealingFeatures, MeshesMoveByTheirPlanes) {
       "points = [for (z = [0, 2], p = [[0, 0], [6, 0], [6, 2], [2, 2], [2, 6], [0, 6]])"
       "  [p.x, p.y, z]], faces = concat([[0, 1, 2, 3, 4, 5], [11, 10, 9, 8, 7, 6]],"
       "  [for (i = [0:5]) [i, i + 6, (i + 1) % 6 + 6, (i + 1) % 6]]));");
-  EXPECT_EQ(primitives[2].shape, csgcore::Shape::kMesh);
+  EXPECT_EQ(primitives[2].shape(), csgcore::Shape::kMesh);
   EXPECT_EQ(primitives[2].local_to_world.translation, Vec3(0.666667, 2, 0.666667));
 }
 

@@ -69,20 +69,22 @@ bool contains(const csgcore::Profile& profile, const dvec2& point, double tolera
 double local_support(const Primitive& primitive, const Vec3& u) {
   const double across = std::hypot(u.x, u.y);
   double most = -kInfinity;
-  switch (primitive.shape) {
+  switch (primitive.shape()) {
     case Shape::kSphere:
-      return primitive.r_bottom * glm::length(u);
-    case Shape::kFrustum:
-      return std::max(primitive.z_min * u.z + primitive.r_bottom * across,
-                      primitive.z_max * u.z + primitive.r_top * across);
+      return primitive.as<csgcore::SphereShape>().radius * glm::length(u);
+    case Shape::kFrustum: {
+      const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<csgcore::FrustumShape>();
+      return std::max(z_min * u.z + r_bottom * across, z_max * u.z + r_top * across);
+    }
     case Shape::kPolyhedron:
-      for (const Vec3& v : primitive.polyhedron->vertices()) most = std::max(most, glm::dot(v, u));
+      for (const Vec3& v : primitive.polyhedron()->vertices())
+        most = std::max(most, glm::dot(v, u));
       return most;
     case Shape::kMesh:
-      for (const Vec3& v : primitive.mesh->vertices()) most = std::max(most, glm::dot(v, u));
+      for (const Vec3& v : primitive.mesh()->vertices()) most = std::max(most, glm::dot(v, u));
       return most;
     case Shape::kRevolution:
-      return support(*primitive.profile, {across, u.z});
+      return support(*primitive.profile(), {across, u.z});
     case Shape::kExtrusion:
       break;
   }
@@ -91,22 +93,23 @@ double local_support(const Primitive& primitive, const Vec3& u) {
 
 bool local_contains(const Primitive& primitive, const Vec3& p, double tolerance) {
   const double across = std::hypot(p.x, p.y);
-  switch (primitive.shape) {
+  switch (primitive.shape()) {
     case Shape::kSphere:
-      return glm::length(p) <= primitive.r_bottom + tolerance;
+      return glm::length(p) <= primitive.as<csgcore::SphereShape>().radius + tolerance;
     case Shape::kFrustum: {
-      if (p.z < primitive.z_min - tolerance || p.z > primitive.z_max + tolerance) return false;
-      const double share = (p.z - primitive.z_min) / (primitive.z_max - primitive.z_min);
-      return across <= (1 - share) * primitive.r_bottom + share * primitive.r_top + tolerance;
+      const auto& [z_min, z_max, r_bottom, r_top] = primitive.as<csgcore::FrustumShape>();
+      if (p.z < z_min - tolerance || p.z > z_max + tolerance) return false;
+      const double share = (p.z - z_min) / (z_max - z_min);
+      return across <= (1 - share) * r_bottom + share * r_top + tolerance;
     }
     case Shape::kPolyhedron:
       return std::all_of(
-          primitive.polyhedron->half_spaces().begin(), primitive.polyhedron->half_spaces().end(),
-          [&](const csgcore::HalfSpace& h) {
+          primitive.polyhedron()->half_spaces().begin(),
+          primitive.polyhedron()->half_spaces().end(), [&](const csgcore::HalfSpace& h) {
             return glm::dot(h.normal, p) <= h.offset + tolerance * glm::length(h.normal);
           });
     case Shape::kRevolution:
-      return contains(*primitive.profile, {across, p.z}, tolerance);
+      return contains(*primitive.profile(), {across, p.z}, tolerance);
     case Shape::kMesh:
     case Shape::kExtrusion:
       break;

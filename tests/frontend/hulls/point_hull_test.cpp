@@ -117,7 +117,7 @@ TEST(PointSolid, HasAFaceForEachPlane) {
   for (const double size : {1e-9, 0.3, 1.0, 7e5, 1e9}) {
     const auto cube = solid_of_points(cube_points(size));
     ASSERT_TRUE(cube);
-    EXPECT_EQ(cube->primitive.polyhedron->half_spaces().size(), 6u) << size;
+    EXPECT_EQ(cube->primitive.polyhedron()->half_spaces().size(), 6u) << size;
     EXPECT_TRUE(csgcore::is_valid(cube->primitive));
   }
 }
@@ -138,7 +138,7 @@ double height_over(const csgcore::Primitive& primitive, const Vec3& point) {
   const csgcore::Affine to_world = primitive.local_to_world;
   const Vec3 local = glm::inverse(to_world.linear) * (point - to_world.translation);
   double height = -std::numeric_limits<double>::infinity();
-  for (const csgcore::HalfSpace& face : primitive.polyhedron->half_spaces()) {
+  for (const csgcore::HalfSpace& face : primitive.polyhedron()->half_spaces()) {
     height = std::max(height, glm::dot(face.normal, local) - face.offset);
   }
   return height;
@@ -214,8 +214,8 @@ TEST(PointSolid, OfVeryManyPointsIsAMesh) {
   }
   const auto ball = solid_of_points(points);
   ASSERT_TRUE(ball);
-  ASSERT_TRUE(ball->primitive.mesh);
-  EXPECT_TRUE(ball->primitive.mesh->is_closed());
+  ASSERT_TRUE(ball->primitive.mesh());
+  EXPECT_TRUE(ball->primitive.mesh()->is_closed());
 }
 
 }  // namespace

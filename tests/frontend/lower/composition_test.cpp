@@ -382,9 +382,9 @@ TEST(ThrownTogether, FacesThatRunTheOtherWayHaveTheColorOfTheInside) {
                                             for_picture(PictureKind::kThrownTogether));
   EXPECT_EQ(design.leaves, 1u);
   ASSERT_THAT(design.scene.primitives, SizeIs(2));
-  EXPECT_EQ(design.scene.primitives[0].mesh->triangles().size(), 3u);
+  EXPECT_EQ(design.scene.primitives[0].mesh()->triangles().size(), 3u);
   EXPECT_EQ(design.scene.primitives[0].color, std::nullopt);
-  EXPECT_EQ(design.scene.primitives[1].mesh->triangles().size(), 1u);
+  EXPECT_EQ(design.scene.primitives[1].mesh()->triangles().size(), 1u);
   EXPECT_EQ(design.scene.primitives[1].color, kSeenFromWithin);
 }
 

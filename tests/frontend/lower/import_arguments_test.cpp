@@ -20,24 +20,28 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 TEST(ImporterSphere, TakesEverySpellingOfItsRadius) {
-  EXPECT_EQ(only_primitive("sphere($fn = 0, $fa = 12, $fs = 2, r = 3);").r_bottom, 3);
-  EXPECT_EQ(only_primitive("sphere(3);").r_bottom, 3);
-  EXPECT_EQ(only_primitive("sphere(d = 3);").r_bottom, 1.5);
-  EXPECT_EQ(only_primitive("sphere(r = 7, d = 3);").r_bottom, 1.5);  // as in OpenSCAD
-  EXPECT_EQ(only_primitive("sphere();").r_bottom, 1);
-  EXPECT_EQ(only_primitive("sphere(r = undef);").r_bottom, 1);
-  EXPECT_EQ(only_primitive("sphere(r = 2, colour = [1]);").r_bottom, 2);
-  EXPECT_EQ(only_primitive("sphere();").shape, Shape::kSphere);
+  EXPECT_EQ(only_primitive("sphere($fn = 0, $fa = 12, $fs = 2, r = 3);")
+                .as<csgcore::SphereShape>()
+                .radius,
+            3);
+  EXPECT_EQ(only_primitive("sphere(3);").as<csgcore::SphereShape>().radius, 3);
+  EXPECT_EQ(only_primitive("sphere(d = 3);").as<csgcore::SphereShape>().radius, 1.5);
+  EXPECT_EQ(only_primitive("sphere(r = 7, d = 3);").as<csgcore::SphereShape>().radius,
+            1.5);  // as in OpenSCAD
+  EXPECT_EQ(only_primitive("sphere();").as<csgcore::SphereShape>().radius, 1);
+  EXPECT_EQ(only_primitive("sphere(r = undef);").as<csgcore::SphereShape>().radius, 1);
+  EXPECT_EQ(only_primitive("sphere(r = 2, colour = [1]);").as<csgcore::SphereShape>().radius, 2);
+  EXPECT_EQ(only_primitive("sphere();").shape(), Shape::kSphere);
 }
 
 void expect_frustum(const std::string& text, double z_min, double z_max, double r_bottom,
                     double r_top) {
   const Primitive primitive = only_primitive(text);
-  EXPECT_EQ(primitive.shape, Shape::kFrustum) << text;
-  EXPECT_EQ(primitive.z_min, z_min) << text;
-  EXPECT_EQ(primitive.z_max, z_max) << text;
-  EXPECT_EQ(primitive.r_bottom, r_bottom) << text;
-  EXPECT_EQ(primitive.r_top, r_top) << text;
+  EXPECT_EQ(primitive.shape(), Shape::kFrustum) << text;
+  EXPECT_EQ(primitive.as<csgcore::FrustumShape>().z_min, z_min) << text;
+  EXPECT_EQ(primitive.as<csgcore::FrustumShape>().z_max, z_max) << text;
+  EXPECT_EQ(primitive.as<csgcore::FrustumShape>().r_bottom, r_bottom) << text;
+  EXPECT_EQ(primitive.as<csgcore::FrustumShape>().r_top, r_top) << text;
 }
 
 TEST(ImporterCylinder, TakesEverySpellingOfItsSizes) {

@@ -25,7 +25,7 @@ size_t faces_of(const std::string& text, ImportOptions options = {}) {
   const ImportedDesign design = import_text(text, options);
   EXPECT_THAT(design.scene.primitives, SizeIs(1)) << text;
   const Primitive& primitive = design.scene.primitives.at(0);
-  return primitive.polyhedron ? primitive.polyhedron->half_spaces().size() : 0;
+  return primitive.polyhedron() ? primitive.polyhedron()->half_spaces().size() : 0;
 }
 
 TEST(ImporterFacets, OfFewFragmentsAreKept) {
@@ -64,8 +64,8 @@ TEST(ImporterFacets, AsTheOptionsSay) {
 TEST(ImporterFacets, HaveOpenScadsVertices) {
   const auto expect_vertices = [](const std::string& text, const csgcore::Mesh& mesh) {
     const Primitive primitive = only_primitive(text);
-    ASSERT_TRUE(primitive.polyhedron) << text;
-    const std::vector<Vec3>& vertices = primitive.polyhedron->vertices();
+    ASSERT_TRUE(primitive.polyhedron()) << text;
+    const std::vector<Vec3>& vertices = primitive.polyhedron()->vertices();
     ASSERT_EQ(vertices.size(), mesh.vertices.size()) << text;
     for (size_t i = 0; i < vertices.size(); ++i) {
       const Vec3 vertex = primitive.local_to_world.point(vertices[i]);
@@ -92,7 +92,7 @@ TEST(ImporterFacets, HaveTheEdgesThatOpenScadDraws) {
   const ImportOptions options{.keeps_meshes = true};
   const auto edges_of = [&](const std::string& text) {
     const ImportedDesign design = import_text(text, options);
-    const FacetMesh& mesh = design.meshes.at(design.scene.primitives.at(0).polyhedron.get());
+    const FacetMesh& mesh = design.meshes.at(design.scene.primitives.at(0).polyhedron());
     size_t diagonals = 0;
     for (const FacetMesh::Edge& edge : mesh.edges) diagonals += is_diagonal(edge, mesh);
     return std::to_string(mesh.edges.size() - diagonals) + " + " + std::to_string(diagonals);
@@ -127,7 +127,7 @@ TEST(ImporterFacets, AreSharedWhereOnlyTheSizeDiffers) {
   const auto polyhedra = [](const std::string& text) {
     std::vector<const csgcore::Polyhedron*> result;
     for (const Primitive& primitive : import_text(text).scene.primitives) {
-      result.push_back(primitive.polyhedron.get());
+      result.push_back(primitive.polyhedron());
     }
     return result;
   };
@@ -170,7 +170,7 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
             "a.csg:2:2: warning: 2 round primitives are smooth; this is the first: more than "
             "1048576 facets would be needed (give a smaller $fn)");
   std::vector<Shape> shapes;
-  for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape);
+  for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape());
   EXPECT_THAT(shapes, ElementsAre(Shape::kPolyhedron, Shape::kSphere, Shape::kFrustum,
                                   Shape::kPolyhedron, Shape::kPolyhedron));
   // Many small primitives are too much as well, beyond those that the length of the text allows.
@@ -180,11 +180,11 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
   const ImportedDesign many = import_text(text, {.facets = Facets::kAll});
   uint64_t faces = 0;
   for (const Primitive& primitive : many.scene.primitives) {
-    if (primitive.mesh) faces += primitive.mesh->triangles().size() / 2;
+    if (primitive.mesh()) faces += primitive.mesh()->triangles().size() / 2;
   }
   EXPECT_GT(faces, 900000u);
   EXPECT_LT(faces, 1048576u);
-  EXPECT_EQ(many.scene.primitives.back().shape, Shape::kPolyhedron);
+  EXPECT_EQ(many.scene.primitives.back().shape(), Shape::kPolyhedron);
   EXPECT_THAT(many.warnings, SizeIs(1));
 }
 
@@ -192,9 +192,9 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
 TEST(ImporterFacets, AreMeshesWhereTheyAreMany) {
   const Primitive sphere =
       import_text("sphere(r = 3, $fn = 200);", {.facets = Facets::kAll}).scene.primitives.at(0);
-  ASSERT_EQ(sphere.shape, Shape::kMesh);
-  EXPECT_TRUE(sphere.mesh->is_closed());
-  EXPECT_EQ(sphere.mesh->triangles().size(), 2u * 99 * 200 + 2 * 198);
+  ASSERT_EQ(sphere.shape(), Shape::kMesh);
+  EXPECT_TRUE(sphere.mesh()->is_closed());
+  EXPECT_EQ(sphere.mesh()->triangles().size(), 2u * 99 * 200 + 2 * 198);
   const csgcore::Box box = csgcore::canonicalize(sphere).bounds;
   const double top = 3 * std::cos(M_PI / 200), side = 3 * std::cos(M_PI / 200);
   expect_box(box, Vec3(-side, -side, -top), Vec3(side, side, top), 1e-12);
@@ -202,13 +202,13 @@ TEST(ImporterFacets, AreMeshesWhereTheyAreMany) {
   const Primitive cone =
       import_text("cylinder(h = 2, r1 = 3, r2 = 1, $fn = 20000);", {.facets = Facets::kAll})
           .scene.primitives.at(0);
-  ASSERT_EQ(cone.shape, Shape::kMesh);
-  EXPECT_EQ(cone.mesh->triangles().size(), 2u * 20000 + 2 * 19998);
+  ASSERT_EQ(cone.shape(), Shape::kMesh);
+  EXPECT_EQ(cone.mesh()->triangles().size(), 2u * 20000 + 2 * 19998);
   size_t diagonals = 0;
-  for (const csgcore::TriangleMesh::Triangle& triangle : cone.mesh->triangles()) {
+  for (const csgcore::TriangleMesh::Triangle& triangle : cone.mesh()->triangles()) {
     for (size_t i = 0; i < 3; ++i) {
-      const Vec3& from = cone.mesh->vertices()[triangle[i]];
-      const Vec3& to = cone.mesh->vertices()[triangle[(i + 1) % 3]];
+      const Vec3& from = cone.mesh()->vertices()[triangle[i]];
+      const Vec3& to = cone.mesh()->vertices()[triangle[(i + 1) % 3]];
       if (from.z <= to.z) continue;
       const double turn = from.x * to.y - from.y * to.x;
       diagonals += turn > 1e-9;

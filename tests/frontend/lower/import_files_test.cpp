@@ -57,11 +57,11 @@ TEST_F(ImporterFiles, AreFoundInTheDesignsFolder) {
   EXPECT_THAT(design.warnings, IsEmpty());
   const std::vector<Primitive>& primitives = design.scene.primitives;
   ASSERT_THAT(primitives, SizeIs(3));
-  EXPECT_EQ(primitives[0].shape, Shape::kPolyhedron);
-  ASSERT_EQ(primitives[1].shape, Shape::kMesh);
+  EXPECT_EQ(primitives[0].shape(), Shape::kPolyhedron);
+  ASSERT_EQ(primitives[1].shape(), Shape::kMesh);
   expect_box(csgcore::canonicalize(primitives[1]).bounds, Vec3(0.0), Vec3(3, 4, 5), 1e-15);
   EXPECT_EQ(primitives[1].id, 1u);
-  EXPECT_EQ(primitives[2].polyhedron, primitives[0].polyhedron);
+  EXPECT_EQ(primitives[2].polyhedron(), primitives[0].polyhedron());
   EXPECT_THAT(design.files, ElementsAre(folder / "B.OFF", folder / "a.off"));
 }
 
@@ -75,7 +75,7 @@ TEST_F(ImporterFiles, ShareOneMesh) {
   const ImportedDesign design = import(text);
   ASSERT_THAT(design.scene.primitives, SizeIs(101));
   for (const Primitive& primitive : design.scene.primitives) {
-    EXPECT_EQ(primitive.mesh, design.scene.primitives[0].mesh);
+    EXPECT_EQ(primitive.mesh(), design.scene.primitives[0].mesh());
   }
 }
 
@@ -209,7 +209,7 @@ TEST_F(ImporterFiles, WithoutVolumeAreSheets) {
   ASSERT_THAT(design.warnings, SizeIs(1));
   EXPECT_THAT(design.warnings[0].text, HasSubstr("surface: 'a.dat' has no volume"));
   ASSERT_THAT(design.scene.primitives, SizeIs(1));
-  EXPECT_FALSE(design.scene.primitives[0].mesh->is_closed());
+  EXPECT_FALSE(design.scene.primitives[0].mesh()->is_closed());
 }
 
 TEST_F(ImporterFiles, OfHeightsAreSolids) {
@@ -223,7 +223,7 @@ TEST_F(ImporterFiles, OfHeightsAreSolids) {
   expect_box(csgcore::canonicalize(primitives[0]).bounds, Vec3(0.0), Vec3(1, 2, 9), 1e-14);
   expect_box(csgcore::canonicalize(primitives[1]).bounds, Vec3(-0.5, -1, 0), Vec3(0.5, 1, 9),
              1e-14);
-  EXPECT_EQ(primitives[1].mesh, primitives[2].mesh);
+  EXPECT_EQ(primitives[1].mesh(), primitives[2].mesh());
 }
 
 TEST_F(ImporterFiles, ThatFaceInwardsAreMagentaThrownTogether) {

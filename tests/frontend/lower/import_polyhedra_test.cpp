@@ -45,13 +45,13 @@ TEST(ImporterCube, SharesOnePolyhedron) {
   const std::vector<Primitive> cubes =
       import_text("cube([1, 2, 3]); multmatrix([[0,1,0,0],[1,0,0,0],[0,0,1,0]]) { cube(7); }")
           .scene.primitives;
-  EXPECT_EQ(cubes[0].polyhedron, cubes[1].polyhedron);
+  EXPECT_EQ(cubes[0].polyhedron(), cubes[1].polyhedron());
 }
 
 TEST(ImporterPolyhedron, IsTakenWhereItIsConvex) {
   const Primitive primitive = only_primitive("polyhedron(" + kCorner + kFaces + ");");
   expect_box(box_of(primitive), Vec3(0.0), Vec3(3, 4, 5), 0);
-  EXPECT_EQ(primitive.polyhedron->half_spaces().size(), 4u);
+  EXPECT_EQ(primitive.polyhedron()->half_spaces().size(), 4u);
   const std::string older =
       "polyhedron(" + kCorner + "triangles = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], convexity = 1);";
   const std::string positional =
@@ -59,7 +59,7 @@ TEST(ImporterPolyhedron, IsTakenWhereItIsConvex) {
   const std::string careless =
       "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3.2,2,-5,77,1e99,nan]]);";
   for (const std::string& text : {older, positional, careless}) {
-    EXPECT_EQ(only_primitive(text).polyhedron->half_spaces().size(), 4u) << text;
+    EXPECT_EQ(only_primitive(text).polyhedron()->half_spaces().size(), 4u) << text;
     expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
   }
 }
@@ -70,8 +70,8 @@ TEST(ImporterPolyhedron, EqualOnesAreOne) {
       import_text(tetrahedron + "multmatrix([[1,0,0,9]]) { " + tetrahedron + "}" +
                   "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5.5]], " + kFaces + ");")
           .scene.primitives;
-  EXPECT_EQ(primitives[0].polyhedron, primitives[1].polyhedron);
-  EXPECT_NE(primitives[0].polyhedron, primitives[2].polyhedron);
+  EXPECT_EQ(primitives[0].polyhedron(), primitives[1].polyhedron());
+  EXPECT_NE(primitives[0].polyhedron(), primitives[2].polyhedron());
 }
 
 TEST(ImporterPolyhedron, OfAnySize) {
@@ -90,16 +90,16 @@ TEST(ImporterPolyhedron, IsAMeshWhereItIsNotConvex) {
       "[4,0,3],[0,1,5],[1,2,5],[2,3,5],[3,0,5]]);";
   EXPECT_THAT(warnings_of(dented), IsEmpty());
   const Primitive primitive = only_primitive(dented);
-  ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
-  EXPECT_TRUE(primitive.mesh->is_closed());
-  EXPECT_EQ(primitive.mesh->triangles().size(), 8u);
+  ASSERT_EQ(primitive.shape(), csgcore::Shape::kMesh);
+  EXPECT_TRUE(primitive.mesh()->is_closed());
+  EXPECT_EQ(primitive.mesh()->triangles().size(), 8u);
   expect_box(csgcore::canonicalize(primitive).bounds, Vec3(-2, -2, 0), Vec3(2), 1e-15);
-  for (const Vec3& vertex : primitive.mesh->vertices()) EXPECT_LE(vertex.x, 1);
+  for (const Vec3& vertex : primitive.mesh()->vertices()) EXPECT_LE(vertex.x, 1);
   EXPECT_EQ(primitive.local_to_world.linear[0].x, 2);
   // The same faces share one mesh.
   const std::vector<Primitive> two =
       import_text(dented + "multmatrix([[1,0,0,9]]) { " + dented + " }").scene.primitives;
-  EXPECT_EQ(two[0].mesh, two[1].mesh);
+  EXPECT_EQ(two[0].mesh(), two[1].mesh());
 }
 
 TEST(ImporterPolyhedron, CutsFacesIntoTriangles) {
@@ -118,9 +118,9 @@ TEST(ImporterPolyhedron, CutsFacesIntoTriangles) {
   }
   const Primitive primitive =
       only_primitive("polyhedron([" + points + "],[[0,1,2,3,4,5],[11,10,9,8,7,6]" + sides + "]);");
-  ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
-  EXPECT_TRUE(primitive.mesh->is_closed());
-  EXPECT_EQ(primitive.mesh->triangles().size(), 20u);
+  ASSERT_EQ(primitive.shape(), csgcore::Shape::kMesh);
+  EXPECT_TRUE(primitive.mesh()->is_closed());
+  EXPECT_EQ(primitive.mesh()->triangles().size(), 20u);
   csgcore::CanonicalPrimitive canonical = csgcore::canonicalize(primitive);
   EXPECT_TRUE(csgcore::contains(canonical, Vec3(1, 5, 0.5)));
   EXPECT_FALSE(csgcore::contains(canonical, Vec3(3, 3, 0.5)));
@@ -134,7 +134,7 @@ TEST(ImporterPolyhedron, IsDrawnOpen) {
             "the first of 2 (it is drawn as thin sheets where a ray passes a hole)");
   const std::string sheet = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2]]);";
   EXPECT_THAT(warning_of(sheet), HasSubstr("3 edges have a face"));
-  EXPECT_EQ(only_primitive(sheet).mesh->triangles().size(), 1u);
+  EXPECT_EQ(only_primitive(sheet).mesh()->triangles().size(), 1u);
 }
 
 /// OpenSCAD draws their faces.
@@ -147,12 +147,12 @@ TEST(ImporterPolyhedron, WithoutVolumeIsASheet) {
         std::string("polyhedron([[0,0,0],[9,0,0],[9,9,0],[0,0,9]], "
                     "[[0,1,2],[2,1,0],[0,1,3],[3,1,0],[1,2,3],[3,2,1]]);")}) {
     const csgcore::Primitive sheet = only_primitive(flat);
-    ASSERT_EQ(sheet.shape, csgcore::Shape::kMesh) << flat;
-    EXPECT_FALSE(sheet.mesh->is_closed()) << flat;
+    ASSERT_EQ(sheet.shape(), csgcore::Shape::kMesh) << flat;
+    EXPECT_FALSE(sheet.mesh()->is_closed()) << flat;
     EXPECT_THAT(warning_of(flat), HasSubstr("polyhedron has no volume (it is drawn as a thin"));
   }
   const csgcore::Primitive solid = only_primitive("polyhedron(" + kCorner + kFaces + ");");
-  EXPECT_EQ(solid.shape, csgcore::Shape::kPolyhedron);
+  EXPECT_EQ(solid.shape(), csgcore::Shape::kPolyhedron);
   EXPECT_THAT(warnings_of("polyhedron([[0,0,0],[1,0,0],[0,1,0],[0,0,1e200]], " + kFaces + ");"),
               ElementsAre(HasSubstr("it is too large")));
 }
@@ -161,8 +161,8 @@ TEST(ImporterPrimitives, ThatAMatrixFlattensAreSheets) {
   const std::string flat = "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]])";
   for (const std::string solid : {"cube(8);", "sphere(8, $fn = 20);", "cylinder(h = 2, r = 3);"}) {
     const csgcore::Primitive sheet = only_primitive(flat + "{" + solid + "}");
-    ASSERT_EQ(sheet.shape, csgcore::Shape::kMesh) << solid;
-    EXPECT_FALSE(sheet.mesh->is_closed()) << solid;
+    ASSERT_EQ(sheet.shape(), csgcore::Shape::kMesh) << solid;
+    EXPECT_FALSE(sheet.mesh()->is_closed()) << solid;
     EXPECT_THAT(warning_of(flat + "{" + solid + "}"), HasSubstr(" has no volume"));
   }
   // Nothing is left of a line.
@@ -187,10 +187,10 @@ TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
     EXPECT_THAT(warnings_of(text), IsEmpty());
     const Primitive primitive = only_primitive(text);
     expect_box(box_of(primitive), Vec3(0.0), Vec3(3, 4, 5), 0);
-    EXPECT_EQ(primitive.polyhedron->half_spaces().size(), 4u);
+    EXPECT_EQ(primitive.polyhedron()->half_spaces().size(), 4u);
     for (size_t i = 0; i < 4; ++i) {
-      const csgcore::HalfSpace& found = primitive.polyhedron->half_spaces()[i];
-      EXPECT_NEAR(found.offset, wanted.polyhedron->half_spaces()[i].offset, 1e-15);
+      const csgcore::HalfSpace& found = primitive.polyhedron()->half_spaces()[i];
+      EXPECT_NEAR(found.offset, wanted.polyhedron()->half_spaces()[i].offset, 1e-15);
     }
   }
 }
@@ -232,7 +232,7 @@ TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
                                     "out (it must be a list of three finite numbers)");
     expect_box(box_of(only_primitive(late)), Vec3(0.0), Vec3(3, 4, 5), 0);
     const std::string early = points + "faces = [[0,1,2],[1,3,2,4,1],[0,2,3],[0,3,1]]);";
-    EXPECT_EQ(import_text(early).scene.primitives.at(0).mesh->triangles().size(), 2u);
+    EXPECT_EQ(import_text(early).scene.primitives.at(0).mesh()->triangles().size(), 2u);
     EXPECT_THAT(warnings_of(early), ElementsAre(HasSubstr("Unable to convert points[4]"),
                                                 HasSubstr("is not closed: 4 edges")));
     // No face uses the point.
@@ -251,14 +251,14 @@ TEST(ImporterPolyhedron, OfManyFacesIsAMesh) {
     faces += (i == 0 ? "[" : ",[") + b + "," + a + ",0],[" + a + "," + b + ",1]";
   }
   const Primitive primitive = only_primitive("polyhedron([" + points + "],[" + faces + "]);");
-  ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
-  EXPECT_TRUE(primitive.mesh->is_closed());
+  ASSERT_EQ(primitive.shape(), csgcore::Shape::kMesh);
+  EXPECT_TRUE(primitive.mesh()->is_closed());
 }
 
 TEST(ImporterPolyhedron, HasSheetsOnceThatRunBothWays) {
   const Primitive open =
       only_primitive("polyhedron(" + kCorner + "faces = [[0,1,2],[2,1,0],[0,1,3]]);");
-  EXPECT_EQ(open.mesh->triangles().size(), 2u);
+  EXPECT_EQ(open.mesh()->triangles().size(), 2u);
 }
 
 TEST(ImporterPolyhedron, ListsThatAreNoneCountAsMissing) {

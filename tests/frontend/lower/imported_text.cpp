@@ -87,10 +87,10 @@ Primitive only_primitive(const std::string& text) {
 }
 
 csgcore::Box box_of(const Primitive& primitive) {
-  EXPECT_EQ(primitive.shape, Shape::kPolyhedron);
+  EXPECT_EQ(primitive.shape(), Shape::kPolyhedron);
   csgcore::Box box;
-  if (!primitive.polyhedron) return box;
-  for (const Vec3& vertex : primitive.polyhedron->vertices()) {
+  if (!primitive.polyhedron()) return box;
+  for (const Vec3& vertex : primitive.polyhedron()->vertices()) {
     box.merge(primitive.local_to_world.point(vertex));
   }
   return box;

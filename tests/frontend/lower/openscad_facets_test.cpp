@@ -105,8 +105,8 @@ Tally compare(const csgcore::Hits& hits, const csgcore::View& view, const csgcor
 double exact_volume(const csgcore::Scene& scene) {
   std::vector<oracle::FacetedSolid> polyhedra;
   for (const csgcore::Primitive& primitive : scene.primitives) {
-    EXPECT_EQ(primitive.shape, csgcore::Shape::kPolyhedron);
-    polyhedra.push_back({primitive.polyhedron->half_spaces(), primitive.local_to_world});
+    EXPECT_EQ(primitive.shape(), csgcore::Shape::kPolyhedron);
+    polyhedra.push_back({primitive.polyhedron()->half_spaces(), primitive.local_to_world});
   }
   const oracle::NefBuild build = oracle::NefSolid::build(scene.model, polyhedra);
   EXPECT_EQ(build.status, oracle::NefStatus::kBuilt) << build.reason;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "csgcore/triangle_mesh.hpp"
 #include "frontend/parser.hpp"
 #include "lower/imported_text.hpp"
 
@@ -32,7 +33,7 @@ std::string revolved(const std::string& children, const std::string& arguments =
   return "rotate_extrude(" + arguments + ") {" + children + "}";
 }
 
-Shape shape_of_only(const std::string& text) { return only_primitive(text).shape; }
+Shape shape_of_only(const std::string& text) { return only_primitive(text).shape(); }
 
 // --- linear_extrude -------------------------------------------------------------------------
 
@@ -141,8 +142,8 @@ TEST(LinearExtrude, HasNoCornersOfRoundingWhereItsSidesTurn) {
   for (const char* arguments : {"height = 10, twist = 30, slices = 1, $fn = 8",
                                 "height = 10, scale = [1.5, 0.4], slices = 1, $fn = 8"}) {
     const Primitive solid = only_primitive(extruded(octagons, arguments));
-    ASSERT_TRUE(solid.mesh);
-    EXPECT_EQ(solid.mesh->triangles().size(), 8 * 2 + 2 * 6u);  // sides, and both ends
+    ASSERT_TRUE(solid.mesh());
+    EXPECT_EQ(solid.mesh()->triangles().size(), 8 * 2 + 2 * 6u);  // sides, and both ends
   }
 }
 
@@ -151,7 +152,7 @@ TEST(LinearExtrude, ShowsTheSidesThatAHalfTurnFolds) {
   const auto sheets = [&](const std::string& arguments) {
     const ImportedDesign design = import_text(extruded(bar, arguments));
     return std::ranges::count_if(design.scene.primitives, [](const Primitive& primitive) {
-      return primitive.mesh && !primitive.mesh->is_closed();
+      return primitive.mesh() && !primitive.mesh()->is_closed();
     });
   };
   EXPECT_EQ(sheets("height = 6, twist = 180, slices = 1"), 8);
@@ -208,7 +209,7 @@ TEST(LinearExtrude, KeepsFacetsThatAreMeant) {
   EXPECT_EQ(shape_of_only(extruded("circle(r = 2, $fn = 30);")), Shape::kFrustum);
   EXPECT_EQ(import_text(extruded("circle(r = 2, $fn = 30);"), {.facets = Facets::kAll})
                 .scene.primitives[0]
-                .shape,
+                .shape(),
             Shape::kPolyhedron);
 }
 
@@ -417,7 +418,7 @@ TEST(RotateExtrude, FindsTheSimplestSolid) {
   // A half disc: what crosses the axis is cut there.
   const ImportedDesign ball =
       import_text(revolved("intersection() { circle(2); " + moved(0, -5, "square(10);") + "}"));
-  EXPECT_EQ(ball.scene.primitives[0].shape, Shape::kSphere);
+  EXPECT_EQ(ball.scene.primitives[0].shape(), Shape::kSphere);
   EXPECT_THAT(ball.warnings, IsEmpty());
 }
 

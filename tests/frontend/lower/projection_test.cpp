@@ -43,7 +43,7 @@ ImportOptions with_facets() {
 
 TEST(Section, OfABallIsADisc) {
   const Inside inside(section(moved(1, 2, 3, "sphere(5);")));
-  EXPECT_EQ(inside.design().scene.primitives.front().shape, Shape::kFrustum);
+  EXPECT_EQ(inside.design().scene.primitives.front().shape(), Shape::kFrustum);
   EXPECT_TRUE(inside(1 + 4 - 1e-9, 2, 1));
   EXPECT_FALSE(inside(1 + 4 + 1e-9, 2, 1));
   EXPECT_EQ(model_of(section(moved(0, 0, 5, "sphere(5);"))), "-");

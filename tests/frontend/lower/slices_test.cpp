@@ -127,7 +127,7 @@ TEST(SlicedMesh, IsClosed) {
          {openscad_slicing(3, 11, outline), openscad_slicing(1, {}, outline),
           smooth_slicing(layers, 4, outline)}) {
       const csgcore::Primitive mesh = sliced_mesh(layers, slicing);
-      EXPECT_TRUE(mesh.mesh->is_closed()) << scale.x << ' ' << scale.y;
+      EXPECT_TRUE(mesh.mesh()->is_closed()) << scale.x << ' ' << scale.y;
       EXPECT_TRUE(csgcore::is_valid(mesh));
     }
   }
@@ -137,7 +137,7 @@ TEST(SlicedMesh, OfARoundThreadIsClosed) {
   const TwistedLayers layers{0, 2, 800};
   const Slicing slicing = smooth_slicing(layers, 4, {circle_polygon({{1, 0}, 10}, 90)});
   EXPECT_NE(slicing.offsets.front(), 0u);
-  EXPECT_TRUE(sliced_mesh(layers, slicing).mesh->is_closed());
+  EXPECT_TRUE(sliced_mesh(layers, slicing).mesh()->is_closed());
 }
 
 TEST(SlicedBox, IsThatOfAllLayers) {

@@ -33,7 +33,7 @@ std::string scaled(double x, double y, double z, const std::string& children) {
 size_t count_of(const ImportedDesign& design, Shape shape) {
   return static_cast<size_t>(
       std::count_if(design.scene.primitives.begin(), design.scene.primitives.end(),
-                    [shape](const csgcore::Primitive& p) { return p.shape == shape; }));
+                    [shape](const csgcore::Primitive& p) { return p.shape() == shape; }));
 }
 
 // --- hull -----------------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "kinds/povray_figure.hpp"
 #include "kinds/povray_text.hpp"
 #include "kinds/profile_solid.hpp"
 #include "kinds/test_kind.hpp"
@@ -12,6 +11,7 @@
 namespace test_support {
 namespace {
 
+using csgcore::ExtrusionShape;
 using csgcore::LongVec3;
 using csgcore::Primitive;
 using csgcore::Real;
@@ -71,41 +71,43 @@ constexpr Variant kVariants[] = {
 class ExtrusionTestKind final : public TestKind {
  public:
   std::span<const Variant> variants() const override { return kVariants; }
-  bool is_convex() const override { return false; }
   bool is_told_tightly() const override { return false; }
 
   bool holds(const Primitive& p, const Vec3& point) const override {
     return ExtrusionSolid(p).contains(LongVec3(point));
   }
-  Vec3 surface_point(const Primitive& p, std::mt19937& random) const override {
-    const ExtrusionSolid solid(p);
+  Vec3 surface_point(const Primitive& primitive, std::mt19937& random) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    const ExtrusionSolid solid(primitive);
     std::uniform_real_distribution<double> height(p.z_min, p.z_max);
     double z = random() % 2 ? p.z_min : p.z_max;
-    const bool is_cap = random() % 3 == 0 && (z == p.z_min ? p.r_bottom : p.r_top) > 0;
+    const bool is_cap = random() % 3 == 0 && (z == p.z_min ? p.scale_bottom : p.scale_top) > 0;
     const LongVec2 place =
         is_cap ? solid.figure().random_point(random) : solid.figure().edge_point(random, false);
     if (!is_cap && random() % 3 != 0) z = height(random);
-    const double scale = z == p.z_max ? p.r_top : static_cast<double>(solid.scale_at(z));
+    const double scale = z == p.z_max ? p.scale_top : static_cast<double>(solid.scale_at(z));
     return {scale * double(place.x), scale * double(place.y), z};
   }
   Vec3 core(const Primitive& p, const Vec3& surface_point) const override {
     return ExtrusionSolid(p).core(surface_point);
   }
 
-  LongVec3 middle(const Primitive& p) const override {
-    const Vec2 place = 0.5 * (p.r_bottom + p.r_top) * p.profile->center();
+  LongVec3 middle(const Primitive& primitive) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    const Vec2 place = 0.5 * (p.scale_bottom + p.scale_top) * p.profile->center();
     return {place.x, place.y, 0.5 * p.z_min + 0.5 * p.z_max};
   }
-  Real reach_world(const Primitive& p) const override {
-    const glm::mat<3, 3, Real> linear(p.local_to_world.linear);
+  Real reach_world(const Primitive& primitive) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    const glm::mat<3, 3, Real> linear(primitive.local_to_world.linear);
     const csgcore::reference::Figure figure(*p.profile);
     Real reach = 0;
     for (int corner = 0; corner < 8; ++corner) {
-      const Real scale = corner & 4 ? p.r_top : p.r_bottom;
+      const Real scale = corner & 4 ? p.scale_top : p.scale_bottom;
       const LongVec3 point{scale * (corner & 1 ? figure.max() : figure.min()).x,
                            scale * (corner & 2 ? figure.max() : figure.min()).y,
                            corner & 4 ? p.z_max : p.z_min};
-      reach = std::max(reach, glm::length(linear * (point - middle(p))));
+      reach = std::max(reach, glm::length(linear * (point - middle(primitive))));
     }
     return reach;
   }
@@ -116,14 +118,18 @@ class ExtrusionTestKind final : public TestKind {
   std::unique_ptr<const csgcore::reference::LocalSolid> solid(const Primitive& p) const override {
     return std::make_unique<ExtrusionSolid>(p);
   }
-  double furthest(const Primitive& p, const Vec3& direction) const override {
+  double furthest(const Primitive& primitive, const Vec3& direction) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
     const csgcore::reference::Figure figure(*p.profile);
     const double lateral = double(figure.furthest({direction.x, direction.y}));
-    return std::max(p.r_bottom * lateral + p.z_min * direction.z,
-                    p.r_top * lateral + p.z_max * direction.z);
+    return std::max(p.scale_bottom * lateral + p.z_min * direction.z,
+                    p.scale_top * lateral + p.z_max * direction.z);
   }
 
-  Heights heights(const Primitive& p) const override { return {p.z_min, p.z_max}; }
+  Heights heights(const Primitive& primitive) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    return {p.z_min, p.z_max};
+  }
   Vec3 on_surface(const Primitive& p, const Vec3& sideways, double height) const override {
     const Vec3 on_axis{0, 0, height};
     if (glm::length(sideways) == 0) return on_axis;
@@ -136,13 +142,14 @@ class ExtrusionTestKind final : public TestKind {
   }
 
   /// POV-Ray sweeps along y, and a cone's prism from scale 0 at y = 0.
-  std::string as_povray(const Primitive& p) const override {
-    const bool is_prism = p.r_bottom == p.r_top;
-    const double from = is_prism ? p.z_min : std::min(p.r_bottom, p.r_top);
-    const double to = is_prism ? p.z_max : std::max(p.r_bottom, p.r_top);
-    const double scale = is_prism ? p.r_bottom : 1;
-    const double steepness = is_prism ? 1 : (p.z_max - p.z_min) / (p.r_top - p.r_bottom);
-    const double start = is_prism ? 0 : p.z_min - steepness * p.r_bottom;
+  std::string as_povray(const Primitive& primitive) const override {
+    const auto& p = primitive.as<ExtrusionShape>();
+    const bool is_prism = p.scale_bottom == p.scale_top;
+    const double from = is_prism ? p.z_min : std::min(p.scale_bottom, p.scale_top);
+    const double to = is_prism ? p.z_max : std::max(p.scale_bottom, p.scale_top);
+    const double scale = is_prism ? p.scale_bottom : 1;
+    const double steepness = is_prism ? 1 : (p.z_max - p.z_min) / (p.scale_top - p.scale_bottom);
+    const double start = is_prism ? 0 : p.z_min - steepness * p.scale_bottom;
     return std::string("prism { ") + (is_prism ? "linear" : "conic") + "_sweep linear_spline " +
            povray::number(from) + "," + povray::number(to) + "," +
            povray::figure(*p.profile, scale) + " matrix <1,0,0, 0,0," + povray::number(steepness) +

@@ -11,6 +11,7 @@
 namespace test_support {
 namespace {
 
+using csgcore::FrustumShape;
 using csgcore::LongVec3;
 using csgcore::Primitive;
 using csgcore::Real;
@@ -59,7 +60,7 @@ Span cross_slab(const NearRay& ray, Real half_height) {
 /// Measures z from the middle.
 class FrustumSolid final : public ConvexSolid {
  public:
-  explicit FrustumSolid(const Primitive& p)
+  explicit FrustumSolid(const FrustumShape& p)
       : middle_z_((Wide(p.z_min) + Wide(p.z_max)) / 2),
         half_height_(Real((Wide(p.z_max) - Wide(p.z_min)) / 2)),
         r_bottom_(p.r_bottom),
@@ -129,7 +130,7 @@ constexpr Variant kVariants[] = {
     {"ConeUpsideDown", [](Sizes& sizes) { return standing(sizes, 0, sizes.length()); }},
     {"HardlyACone", [](Sizes& sizes) { return standing(sizes, 1, 1 - 1e-12); }}};
 
-double radius_at(const Primitive& p, double z) {
+double radius_at(const FrustumShape& p, double z) {
   return p.r_bottom + (z - p.z_min) / (p.z_max - p.z_min) * (p.r_top - p.r_bottom);
 }
 
@@ -137,11 +138,13 @@ class FrustumTestKind final : public TestKind {
  public:
   std::span<const Variant> variants() const override { return kVariants; }
 
-  bool holds(const Primitive& p, const Vec3& point) const override {
+  bool holds(const Primitive& primitive, const Vec3& point) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return point.z >= p.z_min && point.z <= p.z_max &&
            std::hypot(point.x, point.y) <= radius_at(p, point.z);
   }
-  Vec3 surface_point(const Primitive& p, std::mt19937& random) const override {
+  Vec3 surface_point(const Primitive& primitive, std::mt19937& random) const override {
+    const auto& p = primitive.as<FrustumShape>();
     std::uniform_real_distribution<double> share(0, 1);
     const double angle = 2 * std::numbers::pi * share(random);
     const bool at_end = random() % 2 == 0, at_top = random() % 2 == 0;
@@ -152,21 +155,25 @@ class FrustumTestKind final : public TestKind {
     if (at_end && random() % 3 == 0) radius *= std::sqrt(share(random));  // in the cap, not its rim
     return {radius * std::cos(angle), radius * std::sin(angle), z};
   }
-  Vec3 core(const Primitive& p, const Vec3&) const override {
+  Vec3 core(const Primitive& primitive, const Vec3&) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return {0, 0, 0.5 * p.z_min + 0.5 * p.z_max};
   }
 
-  LongVec3 middle(const Primitive& p) const override {
+  LongVec3 middle(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return {0, 0, (Real(p.z_max) + Real(p.z_min)) / 2};
   }
-  Real reach_world(const Primitive& p) const override {
-    const csgcore::Mat3& linear = p.local_to_world.linear;
+  Real reach_world(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
+    const csgcore::Mat3& linear = primitive.local_to_world.linear;
     const Real radius = std::max(p.r_bottom, p.r_top);
     const Real half_height = (Real(p.z_max) - Real(p.z_min)) / 2;
     return glm::length(LongVec3(linear[0])) * radius + glm::length(LongVec3(linear[1])) * radius +
            glm::length(LongVec3(linear[2])) * half_height;
   }
-  std::vector<Side> sides(const Primitive& p, const LongVec3& point) const override {
+  std::vector<Side> sides(const Primitive& primitive, const LongVec3& point) const override {
+    const auto& p = primitive.as<FrustumShape>();
     const Real above = point.z - p.z_max, below = p.z_min - point.z;
     const Real slope = (Real(p.r_top) - Real(p.r_bottom)) / (Real(p.z_max) - Real(p.z_min));
     // The radius is computed from the nearer end, so that nothing cancels next to an apex.
@@ -182,31 +189,39 @@ class FrustumTestKind final : public TestKind {
   }
 
   std::unique_ptr<const LocalSolid> solid(const Primitive& p) const override {
-    return std::make_unique<FrustumSolid>(p);
+    return std::make_unique<FrustumSolid>(p.as<FrustumShape>());
   }
-  double furthest(const Primitive& p, const Vec3& direction) const override {
+  double furthest(const Primitive& primitive, const Vec3& direction) const override {
+    const auto& p = primitive.as<FrustumShape>();
     const double across = std::hypot(direction.x, direction.y);
     return std::max(direction.z * p.z_min + across * p.r_bottom,
                     direction.z * p.z_max + across * p.r_top);
   }
 
-  Heights heights(const Primitive& p) const override { return {p.z_min, p.z_max}; }
-  Vec3 on_surface(const Primitive& p, const Vec3& sideways, double height) const override {
+  Heights heights(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
+    return {p.z_min, p.z_max};
+  }
+  Vec3 on_surface(const Primitive& primitive, const Vec3& sideways, double height) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return radius_at(p, height) * sideways + Vec3{0, 0, height};
   }
-  std::optional<double> apex(const Primitive& p) const override {
+  std::optional<double> apex(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
     if (p.r_top == p.r_bottom) return std::nullopt;
     return p.z_min + (p.z_max - p.z_min) * p.r_bottom / (p.r_bottom - p.r_top);
   }
 
-  std::string as_povray(const Primitive& p) const override {
+  std::string as_povray(const Primitive& primitive) const override {
+    const auto& p = primitive.as<FrustumShape>();
     const std::string bottom = povray::vector({0, 0, p.z_min});
     const std::string top = povray::vector({0, 0, p.z_max});
     const std::string r_bottom = povray::number(p.r_bottom), r_top = povray::number(p.r_top);
     if (p.r_bottom == p.r_top) return "cylinder { " + bottom + "," + top + "," + r_bottom;
     return "cone { " + bottom + "," + r_bottom + "," + top + "," + r_top;
   }
-  std::optional<FacetedSolid> faceted(const Primitive& p, int fragments) const override {
+  std::optional<FacetedSolid> faceted(const Primitive& primitive, int fragments) const override {
+    const auto& p = primitive.as<FrustumShape>();
     return FacetedSolid{
         csgcore::frustum_mesh(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments),
         half_spaces(csgcore::faceted_frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments))};

@@ -102,7 +102,7 @@ std::vector<Span> wound_spans(const std::vector<MeshPassage>& passages) {
 }
 
 MeshSolid::MeshSolid(const Primitive& primitive)
-    : mesh_(primitive.mesh),
+    : mesh_(primitive.as<MeshShape>().mesh),
       local_to_world_(primitive.local_to_world.linear),
       world_to_local_(glm::inverse(local_to_world_)) {}
 

@@ -145,15 +145,14 @@ LongVec3 nearest_in(const LongVec3& a, const LongVec3& b, const LongVec3& c, con
 class MeshTestKind final : public TestKind {
  public:
   std::span<const Variant> variants() const override { return kVariants; }
-  bool is_convex() const override { return false; }
   bool is_told_tightly() const override { return false; }
 
   bool holds(const Primitive& p, const Vec3& point) const override {
-    return contains(*p.mesh, point);
+    return contains(*p.mesh(), point);
   }
   /// Triangles within another shell are no surface.
   Vec3 surface_point(const Primitive& p, std::mt19937& random) const override {
-    const TriangleMesh& mesh = *p.mesh;
+    const TriangleMesh& mesh = *p.mesh();
     std::uniform_real_distribution<double> share(0, 1);
     for (;;) {
       const auto triangle = static_cast<uint32_t>(random() % mesh.triangles().size());
@@ -171,23 +170,23 @@ class MeshTestKind final : public TestKind {
     }
   }
   Vec3 core(const Primitive& p, const Vec3& surface_point) const override {
-    return way_in(*p.mesh, surface_point);
+    return way_in(*p.mesh(), surface_point);
   }
 
   LongVec3 middle(const Primitive& p) const override {
-    return LongVec3(p.mesh->canonical().center);
+    return LongVec3(p.mesh()->canonical().center);
   }
   Real reach_world(const Primitive& p) const override {
     const glm::mat<3, 3, Real> linear(p.local_to_world.linear);
     Real reach = 0;
-    for (const Vec3& vertex : p.mesh->vertices()) {
+    for (const Vec3& vertex : p.mesh()->vertices()) {
       reach = std::max(reach, glm::length(linear * (LongVec3(vertex) - middle(p))));
     }
     return reach;
   }
   /// One side: the distance from the surface, which is not convex.
   std::vector<Side> sides(const Primitive& p, const LongVec3& point) const override {
-    const TriangleMesh& mesh = *p.mesh;
+    const TriangleMesh& mesh = *p.mesh();
     const auto corner = [&](uint32_t vertex) { return LongVec3(mesh.vertices()[vertex]); };
     Real least = std::numeric_limits<Real>::infinity();
     LongVec3 nearest(0);
@@ -209,9 +208,9 @@ class MeshTestKind final : public TestKind {
   }
   double furthest(const Primitive& p, const Vec3& direction) const override {
     double most = -std::numeric_limits<double>::infinity();
-    for (const TriangleMesh::Triangle& triangle : p.mesh->triangles()) {
+    for (const TriangleMesh::Triangle& triangle : p.mesh()->triangles()) {
       for (const uint32_t v : triangle) {
-        most = std::max(most, glm::dot(direction, p.mesh->vertices()[v]));
+        most = std::max(most, glm::dot(direction, p.mesh()->vertices()[v]));
       }
     }
     return most;
@@ -219,7 +218,7 @@ class MeshTestKind final : public TestKind {
 
   /// Those of the part about the origin.
   Heights heights(const Primitive& p) const override {
-    for (const Span& span : spans_of(*p.mesh, Vec3(0.0), {0, 0, 1})) {
+    for (const Span& span : spans_of(*p.mesh(), Vec3(0.0), {0, 0, 1})) {
       if (span.begin <= 0 && span.end >= 0) return {double(span.begin), double(span.end)};
     }
     return {0, 0};
@@ -228,7 +227,7 @@ class MeshTestKind final : public TestKind {
     const Vec3 on_axis{0, 0, height};
     if (glm::length(sideways) == 0) return on_axis;
     const Vec3 direction = glm::normalize(sideways);
-    for (const Span& span : spans_of(*p.mesh, on_axis, direction)) {
+    for (const Span& span : spans_of(*p.mesh(), on_axis, direction)) {
       if (span.end >= 0) return on_axis + double(span.end) * sideways;
     }
     return on_axis;
@@ -237,10 +236,10 @@ class MeshTestKind final : public TestKind {
   /// POV-Ray takes the inside of a mesh from its crossings along `inside_vector`.
   std::string as_povray(const Primitive& p) const override {
     std::string text = "mesh {";
-    for (const auto& [a, b, c] : p.mesh->triangles()) {
-      text += " triangle { " + povray::vector(p.mesh->vertices()[a]) + "," +
-              povray::vector(p.mesh->vertices()[b]) + "," + povray::vector(p.mesh->vertices()[c]) +
-              " }";
+    for (const auto& [a, b, c] : p.mesh()->triangles()) {
+      text += " triangle { " + povray::vector(p.mesh()->vertices()[a]) + "," +
+              povray::vector(p.mesh()->vertices()[b]) + "," +
+              povray::vector(p.mesh()->vertices()[c]) + " }";
     }
     return text + " inside_vector " + povray::vector(kAskew);
   }

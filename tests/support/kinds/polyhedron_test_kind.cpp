@@ -25,7 +25,8 @@ using csgcore::reference::Surface;
 
 class PolyhedronSolid final : public ConvexSolid {
  public:
-  explicit PolyhedronSolid(const Primitive& primitive) : polyhedron_(primitive.polyhedron) {}
+  explicit PolyhedronSolid(const Primitive& primitive)
+      : polyhedron_(primitive.as<csgcore::PolyhedronShape>().polyhedron) {}
 
   Span span(const NearRay& ray) const override {
     constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
@@ -106,37 +107,37 @@ class PolyhedronTestKind final : public TestKind {
   std::span<const Variant> variants() const override { return kVariants; }
 
   bool holds(const Primitive& p, const Vec3& point) const override {
-    const std::vector<HalfSpace>& half_spaces = p.polyhedron->half_spaces();
+    const std::vector<HalfSpace>& half_spaces = p.polyhedron()->half_spaces();
     return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& half_space) {
       return glm::dot(half_space.normal, point) <= half_space.offset;
     });
   }
   Vec3 surface_point(const Primitive& p, std::mt19937& random) const override {
-    const std::vector<Vec3>& vertices = p.polyhedron->vertices();
+    const std::vector<Vec3>& vertices = p.polyhedron()->vertices();
     if (random() % 3 == 0) return vertices[random() % vertices.size()];
     const Vec3 direction = random_direction(random);
-    const Vec3& middle = p.polyhedron->canonical().center;
-    return middle + room_along(p.polyhedron->half_spaces(), middle, direction) * direction;
+    const Vec3& middle = p.polyhedron()->canonical().center;
+    return middle + room_along(p.polyhedron()->half_spaces(), middle, direction) * direction;
   }
   Vec3 core(const Primitive& p, const Vec3&) const override {
-    return p.polyhedron->canonical().center;
+    return p.polyhedron()->canonical().center;
   }
 
   LongVec3 middle(const Primitive& p) const override {
-    return LongVec3(p.polyhedron->canonical().center);
+    return LongVec3(p.polyhedron()->canonical().center);
   }
   Real reach_world(const Primitive& p) const override {
     const glm::mat<3, 3, Real> linear(p.local_to_world.linear);
     Real reach = 0;
-    for (const Vec3& vertex : p.polyhedron->vertices()) {
+    for (const Vec3& vertex : p.polyhedron()->vertices()) {
       reach = std::max(reach, glm::length(linear * (LongVec3(vertex) - middle(p))));
     }
     return reach;
   }
   std::vector<Side> sides(const Primitive& p, const LongVec3& point) const override {
     std::vector<Side> faces;
-    faces.reserve(p.polyhedron->half_spaces().size());
-    for (const HalfSpace& half_space : p.polyhedron->half_spaces()) {
+    faces.reserve(p.polyhedron()->half_spaces().size());
+    for (const HalfSpace& half_space : p.polyhedron()->half_spaces()) {
       const LongVec3 normal(half_space.normal);
       faces.push_back({glm::dot(normal, point) - half_space.offset, normal});
     }
@@ -148,30 +149,30 @@ class PolyhedronTestKind final : public TestKind {
   }
   double furthest(const Primitive& p, const Vec3& direction) const override {
     double most = -std::numeric_limits<double>::infinity();
-    for (const Vec3& v : p.polyhedron->vertices()) most = std::max(most, glm::dot(direction, v));
+    for (const Vec3& v : p.polyhedron()->vertices()) most = std::max(most, glm::dot(direction, v));
     return most;
   }
 
   Heights heights(const Primitive& p) const override {
     csgcore::Box box;
-    for (const Vec3& vertex : p.polyhedron->vertices()) box.merge(vertex);
+    for (const Vec3& vertex : p.polyhedron()->vertices()) box.merge(vertex);
     return {box.min.z, box.max.z};
   }
   Vec3 on_surface(const Primitive& p, const Vec3& sideways, double height) const override {
     const Vec3 on_axis{0, 0, height};
     if (glm::length(sideways) == 0) return on_axis;
     const Vec3 direction = glm::normalize(sideways);
-    return on_axis + room_along(p.polyhedron->half_spaces(), on_axis, direction) * sideways;
+    return on_axis + room_along(p.polyhedron()->half_spaces(), on_axis, direction) * sideways;
   }
 
   /// A face is a plane, whose inside is what lies behind it. POV-Ray does not see that they are
   /// bounded.
   std::string as_povray(const Primitive& p) const override {
     csgcore::Box box;
-    for (const Vec3& vertex : p.polyhedron->vertices()) box.merge(vertex);
+    for (const Vec3& vertex : p.polyhedron()->vertices()) box.merge(vertex);
     const Vec3 margin(kBoundsMargin * box.diagonal());
     std::string text = "intersection {";
-    for (const HalfSpace& half_space : p.polyhedron->half_spaces()) {
+    for (const HalfSpace& half_space : p.polyhedron()->half_spaces()) {
       const double length = glm::length(half_space.normal);
       text += " plane { " + povray::vector(half_space.normal / length) + "," +
               povray::number(half_space.offset / length) + " }";

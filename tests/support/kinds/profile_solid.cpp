@@ -132,11 +132,11 @@ Vec3 ProfileSolid::core(const Vec3& surface_point) const {
 // --- Extrusions ---
 
 ExtrusionSolid::ExtrusionSolid(const Primitive& p)
-    : ProfileSolid(*p.profile),
-      z_min_(p.z_min),
-      z_max_(p.z_max),
-      bottom_scale_(p.r_bottom),
-      top_scale_(p.r_top),
+    : ProfileSolid(*p.profile()),
+      z_min_(p.as<ExtrusionShape>().z_min),
+      z_max_(p.as<ExtrusionShape>().z_max),
+      bottom_scale_(p.as<ExtrusionShape>().scale_bottom),
+      top_scale_(p.as<ExtrusionShape>().scale_top),
       growth_((top_scale_ - bottom_scale_) / (z_max_ - z_min_)) {}
 
 LongVec3 ExtrusionSolid::min() const {

@@ -61,7 +61,7 @@ class ExtrusionSolid final : public ProfileSolid {
 
 class RevolutionSolid final : public ProfileSolid {
  public:
-  explicit RevolutionSolid(const Primitive& primitive) : ProfileSolid(*primitive.profile) {}
+  explicit RevolutionSolid(const Primitive& primitive) : ProfileSolid(*primitive.profile()) {}
   bool contains(const LongVec3& point) const override;
   std::vector<test_support::Side> sides(const LongVec3& point) const override;
   LongVec3 normal(const LongVec3& point, Surface surface) const override;

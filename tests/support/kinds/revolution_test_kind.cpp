@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "kinds/povray_figure.hpp"
 #include "kinds/povray_text.hpp"
 #include "kinds/profile_solid.hpp"
 #include "kinds/test_kind.hpp"
@@ -71,7 +70,6 @@ constexpr Variant kVariants[] = {
 class RevolutionTestKind final : public TestKind {
  public:
   std::span<const Variant> variants() const override { return kVariants; }
-  bool is_convex() const override { return false; }
   bool is_told_tightly() const override { return false; }
 
   bool holds(const Primitive& p, const Vec3& point) const override {
@@ -86,9 +84,9 @@ class RevolutionTestKind final : public TestKind {
     return RevolutionSolid(p).core(surface_point);
   }
 
-  LongVec3 middle(const Primitive& p) const override { return {0, 0, p.profile->center().y}; }
+  LongVec3 middle(const Primitive& p) const override { return {0, 0, p.profile()->center().y}; }
   Real reach_world(const Primitive& p) const override {
-    const csgcore::reference::Figure figure(*p.profile);
+    const csgcore::reference::Figure figure(*p.profile());
     const csgcore::Mat3& linear = p.local_to_world.linear;
     return figure.max().x * (glm::length(LongVec3(linear[0])) + glm::length(LongVec3(linear[1]))) +
            (figure.max().y - figure.min().y) * glm::length(LongVec3(linear[2]));
@@ -101,13 +99,13 @@ class RevolutionTestKind final : public TestKind {
     return std::make_unique<RevolutionSolid>(p);
   }
   double furthest(const Primitive& p, const Vec3& direction) const override {
-    const csgcore::reference::Figure figure(*p.profile);
+    const csgcore::reference::Figure figure(*p.profile());
     return double(figure.furthest({std::hypot(direction.x, direction.y), direction.z}));
   }
 
   /// The z axis need not be inside: these are the figure's.
   Heights heights(const Primitive& p) const override {
-    const csgcore::reference::Figure figure(*p.profile);
+    const csgcore::reference::Figure figure(*p.profile());
     return {double(figure.min().y), double(figure.max().y)};
   }
   Vec3 on_surface(const Primitive& p, const Vec3& sideways, double height) const override {
@@ -120,7 +118,7 @@ class RevolutionTestKind final : public TestKind {
 
   /// POV-Ray revolves about y.
   std::string as_povray(const Primitive& p) const override {
-    return "lathe { linear_spline " + povray::figure(*p.profile, 1) +
+    return "lathe { linear_spline " + povray::figure(*p.profile(), 1) +
            " matrix <1,0,0, 0,0,1, 0,1,0, 0,0,0>";
   }
 };

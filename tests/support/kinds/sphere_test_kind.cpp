@@ -19,9 +19,11 @@ using csgcore::reference::NearRay;
 using csgcore::reference::Span;
 using csgcore::reference::Surface;
 
+double radius_of(const Primitive& sphere) { return sphere.as<csgcore::SphereShape>().radius; }
+
 class SphereSolid final : public ConvexSolid {
  public:
-  explicit SphereSolid(const Primitive& primitive) : radius_(primitive.r_bottom) {}
+  explicit SphereSolid(const Primitive& primitive) : radius_(radius_of(primitive)) {}
 
   Span span(const NearRay& ray) const override {
     const Real dd = glm::dot(ray.direction, ray.direction);
@@ -46,10 +48,10 @@ class SphereTestKind final : public TestKind {
   std::span<const Variant> variants() const override { return kVariants; }
 
   bool holds(const Primitive& p, const Vec3& point) const override {
-    return glm::length(point) <= p.r_bottom;
+    return glm::length(point) <= radius_of(p);
   }
   Vec3 surface_point(const Primitive& p, std::mt19937& random) const override {
-    return p.r_bottom * random_direction(random);
+    return radius_of(p) * random_direction(random);
   }
   Vec3 core(const Primitive&, const Vec3&) const override { return Vec3(0.0); }
 
@@ -57,25 +59,25 @@ class SphereTestKind final : public TestKind {
   Real reach_world(const Primitive& p) const override {
     Real reach = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      reach += glm::length(LongVec3(p.local_to_world.linear[axis])) * Real(p.r_bottom);
+      reach += glm::length(LongVec3(p.local_to_world.linear[axis])) * Real(radius_of(p));
     }
     return reach;
   }
   std::vector<Side> sides(const Primitive& p, const LongVec3& point) const override {
     const Real length = glm::length(point);
-    return {{length - p.r_bottom, length > 0 ? point / length : LongVec3(1)}};
+    return {{length - radius_of(p), length > 0 ? point / length : LongVec3(1)}};
   }
 
   std::unique_ptr<const LocalSolid> solid(const Primitive& p) const override {
     return std::make_unique<SphereSolid>(p);
   }
   double furthest(const Primitive& p, const Vec3& direction) const override {
-    return p.r_bottom * glm::length(direction);
+    return radius_of(p) * glm::length(direction);
   }
 
-  Heights heights(const Primitive& p) const override { return {-p.r_bottom, p.r_bottom}; }
+  Heights heights(const Primitive& p) const override { return {-radius_of(p), radius_of(p)}; }
   Vec3 on_surface(const Primitive& p, const Vec3& sideways, double height) const override {
-    const double radius = std::sqrt(std::max(0.0, p.r_bottom * p.r_bottom - height * height));
+    const double radius = std::sqrt(std::max(0.0, radius_of(p) * radius_of(p) - height * height));
     return radius * sideways + Vec3{0, 0, height};
   }
   Vec3 upwards(const Primitive&, const Vec3& sideways, const Vec3& point) const override {
@@ -83,11 +85,11 @@ class SphereTestKind final : public TestKind {
   }
 
   std::string as_povray(const Primitive& p) const override {
-    return "sphere { <0,0,0>," + povray::number(p.r_bottom);
+    return "sphere { <0,0,0>," + povray::number(radius_of(p));
   }
   std::optional<FacetedSolid> faceted(const Primitive& p, int fragments) const override {
-    return FacetedSolid{csgcore::sphere_mesh(p.r_bottom, fragments),
-                        half_spaces(csgcore::faceted_sphere(p.r_bottom, fragments))};
+    return FacetedSolid{csgcore::sphere_mesh(radius_of(p), fragments),
+                        half_spaces(csgcore::faceted_sphere(radius_of(p), fragments))};
   }
 };
 

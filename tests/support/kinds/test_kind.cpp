@@ -49,7 +49,7 @@ namespace {
 std::vector<Variant> variants_of(bool only_convex) {
   std::vector<Variant> all;
   for (const csgcore::Shape shape : kAllShapes) {
-    if (only_convex && !test_kind_of(shape).is_convex()) continue;
+    if (only_convex && !csgcore::is_convex(shape)) continue;
     const std::span<const Variant> some = test_kind_of(shape).variants();
     all.insert(all.end(), some.begin(), some.end());
   }
@@ -92,16 +92,16 @@ Vec3 to_local(const Primitive& primitive, const Vec3& point_world) {
 }  // namespace
 
 bool holds(const Primitive& primitive, const Vec3& point_world) {
-  return test_kind_of(primitive.shape).holds(primitive, to_local(primitive, point_world));
+  return test_kind_of(primitive.shape()).holds(primitive, to_local(primitive, point_world));
 }
 
 Vec3 surface_point(const Primitive& primitive, std::mt19937& random) {
-  const Vec3 local = test_kind_of(primitive.shape).surface_point(primitive, random);
+  const Vec3 local = test_kind_of(primitive.shape()).surface_point(primitive, random);
   return primitive.local_to_world.point(local);
 }
 
 Vec3 core_of(const Primitive& primitive, const Vec3& surface_world) {
-  const TestKind& kind = test_kind_of(primitive.shape);
+  const TestKind& kind = test_kind_of(primitive.shape());
   return primitive.local_to_world.point(kind.core(primitive, to_local(primitive, surface_world)));
 }
 

@@ -45,8 +45,6 @@ class TestKind {
  public:
   /// Returns at least one variant. Each special form that may fail by itself is a variant.
   virtual std::span<const Variant> variants() const = 0;
-  /// Returns whether all solids of the kind are convex.
-  virtual bool is_convex() const { return true; }
   /// Returns whether csgcore answers all questions about the kind itself. If it leaves some to the
   /// defaults of PrimitiveKind, the answers must still be right, but need not be tight.
   virtual bool is_told_tightly() const { return true; }
