@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
 #include <tuple>
 #include <utility>
+
+#include "base/lower_case.hpp"
 
 namespace window {
 namespace {
@@ -19,12 +20,6 @@ constexpr const char* kUp = "..";
 /// The suffixes of files that are shown. Any other file can be opened by its name.
 constexpr std::array kSuffixes{".scad", ".csg",  ".stl", ".off", ".amf",
                                ".3mf",  ".nef3", ".dxf", ".svg"};
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool is_design(const fs::path& path) {
   const std::string suffix = lower_case(path.extension().string());

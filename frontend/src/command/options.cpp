@@ -1,11 +1,11 @@
 #include "frontend/options.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
+#include "base/lower_case.hpp"
 #include "command/arguments.hpp"
 #include "command/option_table.hpp"
 #include "command/option_words.hpp"
@@ -25,12 +25,6 @@ po::options_description openscad_table() {
 
 po::options_description own_table() {
   return table_of("scadray's own options", own_options(), kHelpColumns);
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 /// An abbreviation that is clear among OpenSCAD's options stays clear although ours are there, too:

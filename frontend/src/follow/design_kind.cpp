@@ -1,9 +1,8 @@
 #include "frontend/design_kind.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string_view>
 
+#include "base/lower_case.hpp"
 #include "lower/import_files.hpp"
 
 namespace frontend {
@@ -12,10 +11,7 @@ namespace {
 /// `suffix` is in lower case.
 bool has_suffix(const std::string& path, std::string_view suffix) {
   return path.size() >= suffix.size() &&
-         std::equal(suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
-                    [](char wanted, char c) {
-                      return wanted == std::tolower(static_cast<unsigned char>(c));
-                    });
+         lower_case(path.substr(path.size() - suffix.size())) == suffix;
 }
 
 }  // namespace

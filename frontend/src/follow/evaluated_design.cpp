@@ -1,12 +1,12 @@
 #include "follow/evaluated_design.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "base/lower_case.hpp"
 #include "follow/openscad_messages.hpp"
 #include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
@@ -15,11 +15,6 @@
 
 namespace frontend {
 namespace {
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// Sets a flag by OpenSCAD's words for true and false, in any case; any other word leaves it.
 void read_flag(std::string_view value, bool& flag) {

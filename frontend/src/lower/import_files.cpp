@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 
+#include "base/lower_case.hpp"
 #include "base/primitive_size.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
@@ -29,8 +29,7 @@ constexpr std::array<Format, 5> kFormats{{{".stl", read_stl},
 
 /// Returns the format of a solid's file, or the end of the list.
 auto format_of_solid(std::string_view name) {
-  std::string suffix = std::filesystem::path(name).extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string suffix = lower_case(std::filesystem::path(name).extension().string());
   return std::ranges::find(kFormats, suffix, &Format::suffix);
 }
 

@@ -1,10 +1,10 @@
 #include "lower/read_drawing.hpp"
 
-#include <cctype>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include "base/lower_case.hpp"
 #include "lower/argument_lookup.hpp"
 #include "lower/node_roles.hpp"
 #include "lower/read_2d.hpp"
@@ -46,8 +46,7 @@ Vec2 read_origin(const SyntaxTree& tree, const SyntaxNode& node) {
 std::optional<DrawingFormat> drawing_format_of(std::string_view name) {
   constexpr size_t kSuffix = 4;
   if (name.size() < kSuffix) return std::nullopt;
-  std::string suffix(name.substr(name.size() - kSuffix));
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string suffix = lower_case(std::string(name.substr(name.size() - kSuffix)));
   if (suffix == ".dxf") return DrawingFormat::kDxf;
   if (suffix == ".svg") return DrawingFormat::kSvg;
   return std::nullopt;

@@ -17,7 +17,7 @@ namespace {
 using csgcore::Vec3;
 using Triangle = csgcore::TriangleMesh::Triangle;
 
-constexpr uint32_t kUnknown = 0xFFFFFFFFu;
+constexpr uint32_t kUnnumbered = 0xFFFFFFFFu;
 
 /// Finds points that are equal, by open addressing.
 class PointTable {
@@ -28,7 +28,7 @@ class PointTable {
     for (size_t slot = hash(point) & (slots_.size() - 1);;
          slot = (slot + 1) & (slots_.size() - 1)) {
       uint32_t& index = slots_[slot];
-      if (index == kUnknown) {
+      if (index == kUnnumbered) {
         index = static_cast<uint32_t>(points.size());
         points.push_back(point);
       } else if (points[index] != point) {
@@ -50,10 +50,10 @@ class PointTable {
   }
 
   void grow(const std::vector<Vec3>& points) {
-    slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), kUnknown);
+    slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), kUnnumbered);
     for (uint32_t i = 0; i < points.size(); ++i) {
       size_t slot = hash(points[i]) & (slots_.size() - 1);
-      while (slots_[slot] != kUnknown) slot = (slot + 1) & (slots_.size() - 1);
+      while (slots_[slot] != kUnnumbered) slot = (slot + 1) & (slots_.size() - 1);
       slots_[slot] = i;
     }
   }
@@ -69,12 +69,12 @@ bool is_finite_point(const Vec3& point) {
 class Renumbering {
  public:
   explicit Renumbering(std::vector<Vec3> points)
-      : old_points_(std::move(points)), new_of_(old_points_.size(), kUnknown) {}
+      : old_points_(std::move(points)), new_of_(old_points_.size(), kUnnumbered) {}
 
   bool is_finite(uint32_t index) const { return is_finite_point(old_points_[index]); }
   uint32_t operator()(uint32_t index) {
     uint32_t& known = new_of_[index];
-    if (known == kUnknown) known = table_.index_of(old_points_[index], points_);
+    if (known == kUnnumbered) known = table_.index_of(old_points_[index], points_);
     return known;
   }
   std::vector<Vec3> take_points() { return std::move(points_); }
