@@ -22,7 +22,7 @@ constexpr std::array kSuffixes{".scad", ".csg",  ".stl", ".off", ".amf",
                                ".3mf",  ".nef3", ".dxf", ".svg"};
 
 bool is_design(const fs::path& path) {
-  const std::string suffix = lower_case(path.extension().string());
+  const std::string suffix = frontend::lower_case(path.extension().string());
   return std::find(kSuffixes.begin(), kSuffixes.end(), suffix) != kSuffixes.end();
 }
 
@@ -70,20 +70,20 @@ void FileBrowser::show(const std::string& folder) {
     }
   }
   std::sort(all_.begin(), all_.end(), [](const Entry& a, const Entry& b) {
-    return std::tuple(!a.is_folder, lower_case(a.name), a.name) <
-           std::tuple(!b.is_folder, lower_case(b.name), b.name);
+    return std::tuple(!a.is_folder, frontend::lower_case(a.name), a.name) <
+           std::tuple(!b.is_folder, frontend::lower_case(b.name), b.name);
   });
   if (folder_ != "/") all_.insert(all_.begin(), {kUp, true});
 }
 
 void FileBrowser::filter() {
-  const std::string name = text_.substr(rest_), wanted = lower_case(name);
+  const std::string name = text_.substr(rest_), wanted = frontend::lower_case(name);
   const bool shows_hidden = wanted.starts_with('.');
   shown_.clear();
   for (const Entry& entry : all_) {
     const bool is_hidden = entry.name.starts_with('.') && entry.name != kUp;
     if (is_hidden && !shows_hidden) continue;
-    if (lower_case(entry.name).find(wanted) != std::string::npos) shown_.push_back(entry);
+    if (frontend::lower_case(entry.name).find(wanted) != std::string::npos) shown_.push_back(entry);
   }
   is_chosen_ = false;
   const auto first = [this](const auto& is_wanted) {
@@ -92,7 +92,8 @@ void FileBrowser::filter() {
   };
   chosen_ = first([&](const Entry& entry) { return entry.name == name; });
   if (chosen_ == shown_.size()) {
-    chosen_ = first([&](const Entry& entry) { return lower_case(entry.name).starts_with(wanted); });
+    chosen_ = first(
+        [&](const Entry& entry) { return frontend::lower_case(entry.name).starts_with(wanted); });
   }
   if (chosen_ == shown_.size()) chosen_ = 0;
   // Without a name the first entry is chosen that leads on.
