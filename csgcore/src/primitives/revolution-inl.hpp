@@ -1,6 +1,6 @@
 // The crossings of rays with revolutions. Included once per instruction set.
 //
-// revolution_path.hpp decides what a ray crosses, and where. This file finds the pieces of the
+// revolution_piece.hpp decides what a ray crosses, and where. This file finds the pieces of the
 // profile for which it has to be asked.
 #if defined(CSGCORE_REVOLUTION_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_REVOLUTION_INL_HPP
@@ -20,6 +20,7 @@
 #include "primitives/profile_line.hpp"
 #include "primitives/profile_walk.hpp"
 #include "primitives/revolution_path.hpp"
+#include "primitives/revolution_piece.hpp"
 #include "rays/frame_rays.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -155,7 +156,7 @@ HWY_INLINE LaneMask lanes_across(const Profile& profile, const Profile::Piece& p
       return hn::Sub(hn::Mul(rise2, beside), hn::Mul(a.run, b.run));
     };
     const auto is_positive = [&](WideV v) { return hn::Gt(v, hn::Zero(d)); };
-    // These are the operations of revolution_path.cpp, so that the answer is the same.
+    // These are the operations of revolution_piece.cpp, so that the answer is the same.
     const auto is_within = [&](const Point& p) {
       const WideV beside = hn::Mul(hn::Sub(p.r, offset), hn::Add(p.r, offset));
       return is_positive(hn::Sub(hn::Mul(rise2, beside), hn::Mul(p.run, p.run)));

@@ -13,12 +13,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
 
 #include "csgcore/geometry.hpp"
 #include "csgcore/profile.hpp"
-#include "primitives/crossings.hpp"
 
 namespace csgcore {
 
@@ -60,9 +57,5 @@ inline double radius_at(const Profile& profile, double x) {
 /// point. Returns false if it misses the solid.
 bool find_path(const Vec3& origin, const Vec3& direction, double inverse_length2,
                RevolutionPath& path);
-
-/// Appends the crossings of the path with a piece, whose number is `face`.
-void cross_piece(const Profile& profile, const RevolutionPath& path, const Profile::Piece& piece,
-                 uint32_t face, std::vector<Crossing>& found);
 
 }  // namespace csgcore

@@ -17,6 +17,7 @@
 #include "csgcore/tracer.hpp"
 #include "primitives/intersect.hpp"
 #include "primitives/revolution_path.hpp"
+#include "primitives/revolution_piece.hpp"
 #include "profile_figures.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"
