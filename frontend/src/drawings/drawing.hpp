@@ -1,4 +1,8 @@
 // The drawings that OpenSCAD's import() and extrusions read as plane figures.
+// Unless facets are kept, circles, arcs and quadratic curves are exact; ellipses and cubic curves
+// are cut into quadratic ones that are at most 2⁻²⁴ of the drawing's size away. An outline of more
+// than 262,144 edges that are long for their number, or whose parts lie over each other more than
+// 64 deep, is left out, with a warning.
 #pragma once
 
 #include <string>

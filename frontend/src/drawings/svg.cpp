@@ -1,4 +1,25 @@
-// SVG, as OpenSCAD 2021.01 reads it (frontend/OPENSCAD.md, "Drawings").
+// SVG, as OpenSCAD 2021.01 reads it.
+// - path, rect, circle, ellipse, line, polyline and polygon count, in whatever element they stand
+//   but defs. transform counts on these and on g. Style sheets, use, text, fill, display and the
+//   name space do not. An attribute's number with anything behind it is 0, and so is one beyond the
+//   largest double, whose shape scadray leaves out with a warning.
+// - What is closed is filled by the even-odd rule, one element by itself, and the elements are
+//   united. A part of a path counts as closed if its ends are at most 0.1 apart, and its last part
+//   also if any part has a z.
+// - line, polyline and the parts of paths that are open are drawn by a pen, before any
+//   transformation: stroke-width (1 if it is less than 0.01), stroke-linecap (square by default),
+//   stroke-linejoin (a miter up to a limit of 2; a bevel keeps the distance from the corner), each
+//   as an attribute or else in style. They are not inherited.
+// - Lengths of the page: without a unit they are 25.4 mm / dpi, and mm, cm, in, px (96 an inch),
+//   pt, pc. %, em and ex give the view box's size in mm. What is missing or cannot be read is the
+//   view box's size without a unit.
+// - Without a view box, coordinates are mm. The y axis is turned over at the page's height, which
+//   is 0 where there is none.
+// - A view box scales by preserveAspectRatio. Its y is subtracted after the axis is turned over.
+//   With several svg elements, the last one's size and view box count for all.
+// - center puts the middle of the drawing's box at minus the view box's corner.
+// - With --facets=all, a circle has 40 chords, a Bézier curve 20 and an arc of a degrees ⌊a/18⌋ +
+//   4, whatever $fn is.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

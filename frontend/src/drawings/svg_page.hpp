@@ -8,8 +8,8 @@
 
 namespace frontend {
 
-/// What OpenSCAD 2021.01 makes of the attributes of `svg` elements (frontend/OPENSCAD.md,
-/// "Drawings"). If there are several, the last one places all that is drawn.
+/// What OpenSCAD 2021.01 makes of the attributes of `svg` elements (svg.cpp). If there are several,
+/// the last one places all that is drawn.
 class SvgPage {
  public:
   /// `dpi` is that of lengths without a unit.

@@ -14,7 +14,7 @@ struct SvgPath {
   std::vector<CurvePath> open;
 };
 
-/// Reads the attribute `d`, by OpenSCAD 2021.01's rules (frontend/OPENSCAD.md, "Drawings"). A
+/// Reads the attribute `d`, by OpenSCAD 2021.01's rules (svg.cpp). A
 /// number that cannot be read is 0, and an incomplete set of numbers is left out.
 SvgPath read_svg_path(std::string_view data);
 

@@ -6,7 +6,7 @@
 namespace frontend {
 namespace {
 
-/// At 100 dots per inch, so that the em has 138,889 units (frontend/OPENSCAD.md, "Text").
+/// At 100 dots per inch, so that the em has 138,889 units (text_layout.hpp).
 constexpr FT_UInt kResolution_dpi = 100;
 /// FreeType has 64 units in a pixel.
 constexpr double kUnitsOfPixel = 64;

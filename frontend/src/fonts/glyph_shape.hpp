@@ -10,7 +10,7 @@
 namespace frontend {
 
 /// Fonts are opened at this size in points, so that an outline has this many units for each unit of
-/// a text's `size` (frontend/OPENSCAD.md, "Text").
+/// a text's `size` (text_layout.hpp).
 constexpr double kOutlineUnits = 1e5;
 
 /// A glyph's outline, in units of 1/kOutlineUnits, about its origin. It has the font's windings,

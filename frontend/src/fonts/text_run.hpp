@@ -25,7 +25,7 @@ struct TextRun {
 };
 
 /// Returns the letters, with the script that all of them share, where none is given, and the
-/// direction of the script (frontend/OPENSCAD.md, "Text"). Bytes that are no UTF-8 are replaced.
+/// direction of the script (text_layout.hpp). Bytes that are no UTF-8 are replaced.
 TextRun run_of(const FontLibraries& libraries, const TextLetters& text);
 
 }  // namespace frontend

@@ -28,8 +28,15 @@ struct TwistedLayers {
   Vec2 point_at(double share, const Vec2& point) const;
 };
 
-/// Returns OpenSCAD's number of slices (frontend/OPENSCAD.md, "Extrusions"), where the design gives
-/// none. The settings are taken as they are, without a lower bound.
+/// Returns OpenSCAD's number of slices, where the design gives none. With r the largest distance of
+/// a corner from the origin, m = ⌈|twist|/120⌉, and $fa and $fs without a lower bound, it is the
+/// first of these that applies:
+/// - r < 2^-20, or $fn is inf or nan: m
+/// - twist, $fn > 0: the larger of m and ⌈|twist|·$fn/360⌉
+/// - twist: the larger of m and the smaller of ⌈|twist|/$fa⌉ and ⌈L/$fs⌉, where L is the length of
+///   the helix, or conical spiral, of the farthest corner; scales that differ do not count
+/// - no twist, $fn > 0: $fn without its fraction
+/// - no twist: ⌈L/$fs⌉, where L is the longest way of a corner, from the bottom to the top
 double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,
                    const csgcore::FacetSettings& facets);
 

@@ -1,4 +1,25 @@
-// Drawings in DXF, as OpenSCAD 2021.01 reads them: pairs of lines, a group code and its value.
+// Drawings in DXF, as OpenSCAD 2021.01 reads them: pairs of lines, a group code and its value. They
+// have no units.
+// - The sections ENTITIES and BLOCKS count, and there LINE, LWPOLYLINE (flag 1 closes it; bulges do
+//   not count), CIRCLE, ARC, ELLIPSE and INSERT (factors 41 and 42, angle 50; a block's base point
+//   does not count). Others are named in a message, but for DIMENSION.
+// - A value v becomes (v − origin) · scale; a scale that is not positive is 1. So does an ellipse's
+//   axis, and its ratio is multiplied by scale. What stands in blocks is moved and scaled where it
+//   is inserted.
+// - layer is exact; an empty one is all of them. Of what is inserted only the INSERT's layer
+//   counts.
+// - Ends lie on a grid of 1/1024. One beside a cell that an end lies in already takes that end's
+//   place.
+// - Lines are joined end to end, each with the first one of the file that goes on. First come the
+//   chains with an open end, which a straight line closes. Then come all others, which OpenSCAD
+//   takes for closed: one that is not loses its first end, or its last one if it runs
+//   counterclockwise at its leftmost point. All together are filled by the even-odd rule.
+// - An entity that lacks points is given those of the next ones, and a number that cannot be read
+//   is left out. At a group code that is no number the reading ends. Messages show words of the
+//   file; scadray's do not before its first SECTION, since a file that is no DXF may be anybody's.
+//   The last entity counts only if another group 0 follows.
+// - With facets, a circle has the chords of its scaled radius from +x on, and an arc its share of
+//   them, rounded up.
 #pragma once
 
 #include <array>
