@@ -7,10 +7,25 @@
 namespace language {
 
 /// Lives as long as a design is followed (EvaluationOptions::cache). An evaluation with it yields
-/// what one without it does. It keeps the statements of included and used files whose texts do not
-/// change, the top levels of used files, and calls of modules with the nodes that they have made
-/// (LANGUAGE.md, "What is kept between evaluations"). Its memory is bounded by what the last
-/// evaluation has used. One evaluation at a time may use it, in any thread.
+/// what one without it does. Its memory is bounded by what the last evaluation has used. One
+/// evaluation at a time may use it, in any thread. The main file is parsed anew. What is kept:
+/// - Statements at the top level of included and used files, as long as the file's bytes do not
+///   change, if they stand whole in one file and were parsed without a message, but no block {}.
+///   `include` and `use` are looked up anew each time. Definitions there are preparsed, but those
+///   in which a file is included, or a variable overwritten. A file counts as unchanged if its
+///   device, inode, size and times are, and if it had been at rest for three seconds when it was
+///   read; else its bytes are compared.
+/// - Top levels of used files, under the conditions that hold within an evaluation (LANGUAGE.md,
+///   "Scopes and calls"), if they hold no function values and if the texts of the file and of all
+///   that it includes and uses are the same. Values are copied in and out.
+/// - Calls of modules that are defined at a top level and get no children: their nodes are copied
+///   from the tree of the last evaluation that came to its end, with places that follow the text,
+///   if nothing that the call can see has changed: its arguments, the `$` variables that it reads,
+///   the variables of the main file's top level that the code which ran can name, the texts of the
+///   definitions that it stands in, and the names and texts which decide what a name means. A call
+///   that says something is evaluated anew; so is one that calls rands(), asks for the name of a
+///   module around it, looks a file up, gets or sees a function value, or in which an include
+///   stands.
 class EvaluationCache {
  public:
   EvaluationCache();

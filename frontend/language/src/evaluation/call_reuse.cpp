@@ -1,5 +1,5 @@
 // Calls of modules whose nodes follow from what they followed from in an earlier evaluation: they
-// are copied (LANGUAGE.md, "What is kept between evaluations").
+// are copied (language/evaluation_cache.hpp).
 #include <algorithm>
 #include <functional>
 
