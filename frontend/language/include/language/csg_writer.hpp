@@ -1,4 +1,10 @@
-// The text of a .csg, as OpenSCAD writes it (LANGUAGE.md, "The .csg writer").
+// The text of a .csg, as OpenSCAD writes it.
+// - A root (`!`) is written alone, without its own `%` and `#`; its descendants keep theirs. It is
+//   the first node, depth first, that has the modifier; a later one that stems from another call is
+//   warned of.
+// - Modifiers stand before the indentation, `%` before `#`.
+// - Matrices, and the lists of polygons and polyhedra, are spelled as echo spells them; other
+//   numbers by `%g`.
 #pragma once
 
 #include <string>

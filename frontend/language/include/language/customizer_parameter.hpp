@@ -1,4 +1,4 @@
-// A variable that a design lets its user choose (LANGUAGE.md, "Parameters").
+// A variable that a design lets its user choose (customizer.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Trigonometry in degrees, exact where OpenSCAD's is (LANGUAGE.md, "Builtin functions").
+// Trigonometry in degrees, exact where OpenSCAD's is (builtin_functions.hpp).
 #pragma once
 
 namespace language {

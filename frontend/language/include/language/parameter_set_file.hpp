@@ -1,4 +1,4 @@
-// A file of parameter sets, as OpenSCAD's customizer writes it (LANGUAGE.md, "Parameters").
+// A file of parameter sets, as OpenSCAD's customizer writes it (customizer.hpp).
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The comment behind a parameter, which says what values it may have (LANGUAGE.md, "Parameters").
+// The comment behind a parameter, which says what values it may have (customizer.hpp).
 #pragma once
 
 #include <string_view>

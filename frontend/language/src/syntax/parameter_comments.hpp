@@ -1,4 +1,4 @@
-// The comments by which a design describes its parameters (LANGUAGE.md, "Parameters").
+// The comments by which a design describes its parameters (customizer.hpp).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// From the literals that a design gives its parameters to values (LANGUAGE.md, "Parameters").
+// From the literals that a design gives its parameters to values (customizer.hpp).
 #pragma once
 
 #include <optional>
