@@ -1,4 +1,10 @@
 // The files of heights that OpenSCAD's surface() reads, and the solid below them.
+// - In lines of numbers # begins a comment. Short rows end in zeros. At a word that is no number,
+//   or one beyond the largest double, the reading stops; a row that it begins is none.
+// - A pixel is 100/255 · (0.2126 R + 0.7152 G + 0.0722 B) high, and with `invert` 100/255 · (1 −
+//   that luminance), which is mostly below 0.
+// - The bottom is at the smaller of 0 and 1 below the lowest number. Every cell has four triangles
+//   around its middle, which has the mean of its corners' heights.
 #pragma once
 
 #include <cstddef>
