@@ -283,6 +283,18 @@ void print_info() {
               "scadray itself, or openscad (on PATH, or $OPENSCAD)");
 }
 
+/// Runs scadray-gl in place of this program. Returns if that is not there and the CPU may draw.
+void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind) {
+  try {
+    run_subcommand(
+        "gl", arguments,
+        "give --renderer=cpu; or build scadray with SCADRAY_GLRENDER=ON where libepoxy is "
+        "installed (libepoxy-dev)");
+  } catch (const Error&) {
+    if (kind == RendererKind::kGl) throw;
+  }
+}
+
 /// Writes all outputs of a design. What is read more than once is read into memory first: it may be
 /// a pipe.
 ExitCode draw(const Options& options, const Renderer& renderer) {
@@ -293,7 +305,8 @@ ExitCode draw(const Options& options, const Renderer& renderer) {
   return ExitCode::kDone;
 }
 
-ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer,
+             const GlProgramChoice& drawn_by_gl_program) {
   if (!arguments.empty() && arguments[0] == "check") {
     return check_designs({arguments.begin() + 1, arguments.end()});
   }
@@ -323,6 +336,9 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
                      "SCADRAY_WINDOW=ON where GLFW and Dear ImGui are installed (libglfw3-dev, "
                      "libimgui-dev)");
     case Action::kDraw:
+      if (!options.outputs.empty() && drawn_by_gl_program && drawn_by_gl_program(options.render)) {
+        run_gl_program(arguments, options.render.renderer);
+      }
       return draw(options, renderer);
   }
   return ExitCode::kDone;
@@ -330,8 +346,9 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
 
 }  // namespace
 
-ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer) {
-  const auto program = [&] { return run(arguments, renderer); };
+ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer,
+                     const GlProgramChoice& drawn_by_gl_program) {
+  const auto program = [&] { return run(arguments, renderer, drawn_by_gl_program); };
   return run_program(program, "a smaller --imgsize or design");
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/elapsed.hpp"
 #include "csgcore/changed_areas.hpp"
+#include "frontend/gl_program.hpp"
 #include "glrender/renderer.hpp"
 #include "render/scene_subdivision.hpp"
 #include "render/solid_renderer.hpp"
@@ -196,5 +197,7 @@ class GlRenderer final : public SolidRenderer {
 std::unique_ptr<SolidRenderer> make_gl_renderer(const GlDemands& demands) {
   return translate_errors([&] { return std::make_unique<GlRenderer>(demands); });
 }
+
+bool needs_gl_program(const RenderSettings&) { return false; }
 
 }  // namespace frontend

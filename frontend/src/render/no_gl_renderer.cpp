@@ -1,12 +1,16 @@
-// In place of gl_renderer.cpp in builds without OpenGL.
+// In place of gl_renderer.cpp in programs without OpenGL.
+#include "frontend/gl_program.hpp"
 #include "render/gl_renderer.hpp"
 
 namespace frontend {
 
 std::unique_ptr<SolidRenderer> make_gl_renderer(const GlDemands&) {
-  throw GlFailure("this scadray has no OpenGL",
-                  "give --renderer=cpu; or build scadray with SCADRAY_GLRENDER=ON where libepoxy "
-                  "is installed (libepoxy-dev)");
+  throw GlFailure("this scadray has no OpenGL", "give --renderer=cpu");
+}
+
+bool needs_gl_program(const RenderSettings& settings) {
+  return settings.renderer == RendererKind::kGl ||
+         (settings.renderer == RendererKind::kAuto && !why_no_gpu());
 }
 
 }  // namespace frontend

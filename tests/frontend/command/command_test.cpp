@@ -84,7 +84,7 @@ class Command : public testing::Test {
     if (std::getenv("OPENSCAD") != nullptr) arguments.insert(arguments.begin(), kByOpenScad);
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    const ExitCode code = run_command(arguments, renderer_);
+    const ExitCode code = run_command(arguments, renderer_, gl_program_);
     Outcome outcome{code, {}, {}};
     outcome.out = testing::internal::GetCapturedStdout();
     outcome.err = testing::internal::GetCapturedStderr();
@@ -115,6 +115,7 @@ class Command : public testing::Test {
   Renderer renderer_ = [this](const csgcore::Scene& scene, const csgcore::View& view,
                               const RenderSettings& settings,
                               RenderStats& stats) { return draw(scene, view, settings, stats); };
+  GlProgramChoice gl_program_;
   std::string technique_ = "tiles";
   std::string reason_;
   double measuring_ms_ = 0;
@@ -123,6 +124,24 @@ class Command : public testing::Test {
   csgcore::View view_;
   RenderSettings settings_;
 };
+
+TEST_F(Command, LeavesPicturesByOpenGlToAnotherProgram) {
+  std::vector<RendererKind> asked;
+  gl_program_ = [&](const RenderSettings& settings) {
+    asked.push_back(settings.renderer);
+    return true;
+  };
+  const Outcome by_gl = run({"-o", png_, "--renderer=gl", file_});
+  EXPECT_THAT(by_gl.err, HasSubstr("error: this scadray has no `gl`: "));
+  EXPECT_EQ(by_gl.code, ExitCode::kFailure);
+  EXPECT_EQ(drawings_, 0);
+  // The tests' folder has no scadray-gl, so that this program draws.
+  EXPECT_EQ(run({"-o", png_, file_}).code, ExitCode::kDone);
+  EXPECT_EQ(drawings_, 1);
+  EXPECT_THAT(asked, ElementsAre(RendererKind::kGl, RendererKind::kAuto));
+  EXPECT_EQ(run({"-o", folder_ / "x.csg", folder_.write("a.scad", "cube(1);")}).err, "");
+  EXPECT_EQ(asked.size(), 2u);  // a text is nothing to draw
+}
 
 TEST_F(Command, DrawsAPicture) {
   const Outcome outcome = run({"-o", png_, "--imgsize=4,3", file_});
