@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/descriptor.hpp"
+#include "base/elapsed.hpp"
 #include "follow/design_reading.hpp"
 #include "follow/file_watch.hpp"
 #include "follow/input_turn.hpp"
@@ -24,8 +25,6 @@
 
 namespace frontend {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 std::string absolute(const std::string& path) {
   std::error_code failed;  // the working folder is gone

@@ -171,10 +171,10 @@ RoundBodies without_inner_bodies(std::vector<RoundBody> bodies, BodyKind kind) {
 }
 
 void add_direction(const Vec3& direction, std::vector<Vec3>& directions) {
-  constexpr double kSame = 0x1p-26;
+  constexpr double kSameDirection = 0x1p-26;
   for (const Vec3& other : directions) {
     const Vec3 gap = direction - other;
-    if (glm::dot(gap, gap) <= kSame * kSame) return;
+    if (glm::dot(gap, gap) <= kSameDirection * kSameDirection) return;
   }
   directions.push_back(direction);
 }

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/elapsed.hpp"
 #include "base/growing_text.hpp"
 #include "frontend/stop.hpp"
 #include "meshes/nef_text.hpp"
@@ -21,8 +22,6 @@
 
 namespace frontend {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The most bytes that openscad may write: a mesh of two million facets.
 constexpr std::size_t kMostOutput = std::size_t{1} << 30;

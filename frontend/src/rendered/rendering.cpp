@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/elapsed.hpp"
 #include "frontend/stop.hpp"
 #include "process/openscad_program.hpp"
 #include "rendered/openscad_process.hpp"
@@ -18,8 +19,6 @@
 
 namespace frontend {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// More of them would only compete for memory.
 constexpr std::size_t kMostProcesses = 16;

@@ -13,7 +13,7 @@
 namespace window {
 namespace {
 
-constexpr const char* kName = "Open a design";
+constexpr const char* kOpenName = "Open a design";
 
 // In lines of text.
 constexpr float kMostLines = 14, kLeastLines = 2, kOtherLines = 9;
@@ -112,11 +112,11 @@ void draw_open_dialogue(State& state, const OpenDesign& open) {
     state.asks_for_design = false;
     const std::string folder = std::filesystem::path(state.name).parent_path().string();
     state.browser.emplace(folder);
-    ImGui::OpenPopup(kName);
+    ImGui::OpenPopup(kOpenName);
   }
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal(kName, nullptr,
+  if (!ImGui::BeginPopupModal(kOpenName, nullptr,
                               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
     return;
   }

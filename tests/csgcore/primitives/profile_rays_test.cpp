@@ -260,10 +260,10 @@ class HardRays {
     }
     const double share =
         random_() % 2 ? static_cast<double>(random_() % 2) : uniform(random_, 0, 1);
-    const auto& [profile, z_min, z_max, low, high] = primitive_.as<ExtrusionShape>();
-    const auto at_share = [&](const Vec2& p, double u) {
-      const double scale = low + u * (high - low);
-      return Vec3{scale * p.x, scale * p.y, z_min + u * (z_max - z_min)};
+    const auto& shape = primitive_.as<ExtrusionShape>();
+    const auto at_share = [&shape](const Vec2& p, double u) {
+      const double scale = shape.scale_bottom + u * (shape.scale_top - shape.scale_bottom);
+      return Vec3{scale * p.x, scale * p.y, shape.z_min + u * (shape.z_max - shape.z_min)};
     };
     tangent_ = {edge.tangent.x, edge.tangent.y, 0};
     along_ = at_share(edge.place, 1) - at_share(edge.place, 0);
