@@ -117,6 +117,7 @@ TEST_F(Inputs, TellTheCameraOfEachTime) {
 TEST_F(Inputs, OfWhatIsReadOnceDoNotCount) {
   Followed design("/dev/null", by_own_evaluator());
   design.next();
+  design.wait_until_idle();
   design->set_inputs({std::nullopt, 0.5});
   EXPECT_EQ(design->state(), DesignFollower::State::kIdle);
 }
