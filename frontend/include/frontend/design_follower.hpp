@@ -65,7 +65,7 @@ class DesignFollower {
   /// The last version that was taken stays, and the next save is followed.
   void stop();
   /// Reads the design with other inputs; the newest ones come next. A reading that is under way is
-  /// shown first, unless it has taken long. What can be read only once is not read again.
+  /// shown first, unless it has taken long. Of what can be read only once the text is kept.
   void set_inputs(DesignInputs inputs);
 
  private:
