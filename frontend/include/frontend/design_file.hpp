@@ -25,6 +25,7 @@ struct DesignText {
   FileText csg;
   /// What text_in_memory() gives of the design: the text that is evaluated.
   std::optional<FileText> scad{};
+  std::optional<SyntaxTree> tree{};  // of `csg`, if it had to be parsed to tell that it is one
   std::shared_ptr<const language::Evaluation> evaluation{};  // in place of a text, if not null
   std::string name;                                          // for the parser's messages
   bool is_exported = false;        // it was made from a .scad, by scadray or openscad
@@ -39,7 +40,6 @@ struct DesignFile {
   std::size_t file_bytes = 0;        // size of the .csg text that was parsed
   SyntaxTree tree;                   // import_design() takes it
   ImportOptions import{};            // and these
-  std::size_t nodes = 0;             // of the tree
   DesignCamera camera{};             // that the design asks for
   bool is_exported = false;          // it was made from a .scad, by scadray or openscad
   std::vector<std::string> files{};  // files it was read from, the design last; empty unless wanted
@@ -77,8 +77,9 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 /// if memory runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
-/// Returns the tree of what was read. Throws what parse() throws (parser.hpp).
-SyntaxTree parse_design(const DesignText& text, const std::stop_token& stop = {});
+/// Returns the tree of what was read, and takes it out of the text if it has one. Throws what
+/// parse() throws (parser.hpp).
+SyntaxTree parse_design(DesignText& text, const std::stop_token& stop = {});
 /// The same of the parts of a DesignText; the text of `csg` counts if `evaluation` is null.
 SyntaxTree parse_design(const FileText& csg, const language::Evaluation* evaluation,
                         const std::string& name, const std::stop_token& stop = {});

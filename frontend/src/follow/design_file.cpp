@@ -39,7 +39,6 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
                 "leave out -d, or check $OPENSCAD");
   }
   design.import = beside(path, text, options.import);
-  design.nodes = design.tree.nodes.size();
   design.is_exported = text.is_exported;
   if (options.wants_files) design.files = std::move(text.files);
   design.export_ms = text.export_ms;
@@ -89,19 +88,19 @@ FileText read_text(const std::string& path, const std::stop_token& stop) {
   return text;
 }
 
-/// Returns whether a design is a .csg, which is not evaluated. `text` is what text_in_memory()
-/// gives.
-bool is_csg(const std::string& path, const DesignFileOptions& options,
-            const std::optional<FileText>& text, const std::stop_token& stop) {
+/// Returns whether a design is a .csg, which is not evaluated. `text.scad` is what text_in_memory()
+/// gives. Sets `text.tree` where the name does not tell, and the text had to be parsed.
+bool is_csg(const std::string& path, const DesignFileOptions& options, DesignText& text,
+            const std::stop_token& stop) {
   const DesignKind kind = kind_of(path);
   if (kind != DesignKind::kEither) return kind == DesignKind::kCsg;
   // --hardwarnings means something to the reader of a .csg, too.
   const bool has_options =
       std::any_of(options.openscad_arguments.begin(), options.openscad_arguments.end(),
                   [](const std::string& word) { return word != "--hardwarnings"; });
-  if (has_options || !text) return !has_options;
+  if (has_options || !text.scad) return !has_options;
   try {
-    parse(text->view(), path, stop);
+    text.tree = parse(text.scad->view(), text.name, stop);
     return true;
   } catch (const Error&) {
     return false;
@@ -238,7 +237,7 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
   const Clock::time_point start = Clock::now();
   text.name = input_name(path);
   text.scad = options.text ? options.text : text_in_memory(path, stop);
-  if (!is_csg(path, options, text.scad, stop)) {
+  if (!is_csg(path, options, text, stop)) {
     if (!text.scad) check_input(path);
     text.read_ms = ms_since(start);
     export_design_text(path, options, text, stop);
@@ -254,7 +253,8 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
   return within_memory(path, [&] { return read_and_parse(path, options); });
 }
 
-SyntaxTree parse_design(const DesignText& text, const std::stop_token& stop) {
+SyntaxTree parse_design(DesignText& text, const std::stop_token& stop) {
+  if (text.tree) return *std::exchange(text.tree, std::nullopt);
   return parse_design(text.csg, text.evaluation.get(), text.name, stop);
 }
 

@@ -45,7 +45,7 @@ bool is_same(const DesignTexts& before, const DesignText& now) {
 
 /// Returns nothing if the text is that of the version before, and neither names files nor has text,
 /// whose fonts may have changed.
-std::optional<SyntaxTree> parse_text(const DesignText& text, DesignReading& reading,
+std::optional<SyntaxTree> parse_text(DesignText& text, DesignReading& reading,
                                      const std::stop_token& stop) {
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
