@@ -68,7 +68,7 @@ struct SurfacePoint {
   }
 };
 
-/// Of a kind that has no answer of its own, nothing is known.
+/// Returns a surface of which nothing is known, for a kind that has no answer of its own.
 template <class AnyShape>
 Surface surface_of(const AnyShape&, const SurfacePoint&) {
   return {};

@@ -142,7 +142,7 @@ void Collector::collect(const std::stop_token& stop) {
 /// the memory; and finds the subtree that `!` selects.
 void Collector::survey() {
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
-  ids_.reserve(count);
+  ids_.reserve(count + 1);
   size_t solids = 0, matrices = 0;
   std::optional<uint32_t> root;
   uint32_t disabled_end = 0;
@@ -158,6 +158,7 @@ void Collector::survey() {
     if (i >= disabled_end && (node.modifiers & kDisable) != 0) disabled_end = node.subtree_end;
     if (i >= disabled_end && !root && (node.modifiers & kRoot) != 0) root = i;
   }
+  ids_.push_back(primitive_nodes);
   selected = root ? NodeRange{*root, tree_.nodes[*root].subtree_end} : NodeRange{0, count};
   for (uint32_t i = selected.begin; i < selected.end && !any_modifiers; ++i) {
     any_modifiers = tree_.nodes[i].modifiers != 0;
@@ -376,6 +377,12 @@ uint32_t Collector::typed_frame(uint32_t node, uint32_t frame) {
   return typed.exact ? frame : frames.add(frame, typed);
 }
 
+Collector::Context Collector::typed_context(uint32_t node) {
+  Context context = contexts_.back();
+  context.frame = typed_frame(node, context.frame);
+  return context;
+}
+
 /// Makes one leaf of the faces of a solid that are seen from outside, and of those that are not.
 void Collector::add_sides(uint32_t node, const Primitive& solid, const SolidOfFaces& faces,
                           const Context& context) {
@@ -427,19 +434,15 @@ PlaneSubtree Collector::read_plane(uint32_t root) {
     i = is_disabled ? tree_.nodes[i].subtree_end : i + 1;
   }
   // The leaf's primitives have the id of its first primitive node.
-  const uint32_t id = ids_[root];
-  const bool has_id = tree_.nodes[root].subtree_end < ids_.size()
-                          ? ids_[tree_.nodes[root].subtree_end] > id
-                          : primitive_nodes > id;
-  if (options_.keeps_places && has_id) places[id] = place_of(root);
+  const bool has_id = ids_[tree_.nodes[root].subtree_end] > ids_[root];
+  if (options_.keeps_places && has_id) places[ids_[root]] = place_of(root);
   return subtree;
 }
 
 /// Adds a subtree of 2D nodes, or of an operation on solids, as one leaf.
 void Collector::add_plane(uint32_t root) {
   const PlaneSubtree subtree = read_plane(root);
-  Context context = contexts_.back();
-  context.frame = typed_frame(root, context.frame);
+  const Context context = typed_context(root);
   add_plane_leaf(subtree, context, problems);
   // Among solids a final render ignores a plane figure.
   PlaneLeaf& leaf = plane_leaves.back();
@@ -489,9 +492,7 @@ bool Collector::add_if_plane(uint32_t root) {
   const int dimension = dimension_of(root);
   if (dimension != 0 && !keeps_dimension(root, dimension)) return true;
   if (dimension != 2) return false;
-  Context context = contexts_.back();
-  context.frame = typed_frame(root, context.frame);
-  add_plane_leaf(read_plane(root), context, problems);
+  add_plane_leaf(read_plane(root), typed_context(root), problems);
   return true;
 }
 

@@ -113,6 +113,8 @@ class Collector {
   void add_solid(uint32_t node);
   bool flatten(uint32_t node, const csgcore::FacetSettings& facets, csgcore::Primitive& primitive);
   uint32_t typed_frame(uint32_t node, uint32_t frame);
+  /// Returns what a node that is one leaf as a whole is handed down, with its typed frame.
+  Context typed_context(uint32_t node);
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);
@@ -159,7 +161,7 @@ class Collector {
   const SyntaxTree& tree_;
   const ImportOptions& options_;
   std::vector<Context> contexts_;
-  /// By node: how many primitive nodes stand before it.
+  /// By node, and behind the last one: how many primitive nodes stand before it.
   std::vector<uint32_t> ids_;
   /// The end of the node at the top that was entered last, and the dimension of the first one that
   /// has any, which all others must have (0: there was none). Only final renders keep them.
