@@ -1,5 +1,7 @@
 #include "lower/inner_parts.hpp"
 
+#include "lower/resolved_modifiers.hpp"
+
 namespace frontend {
 namespace {
 
@@ -27,10 +29,11 @@ bool is_group(NodeKind kind) {
          kind == NodeKind::kUnion;
 }
 
-/// A node that is open, and the modifiers that it hands down.
+/// A node that is open, the modifiers that it hands down, and the parts around what it consists of.
 struct Open {
   uint32_t end;
   uint8_t modifiers;
+  size_t parts;
 };
 
 }  // namespace
@@ -52,12 +55,14 @@ std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree) {
     // What is in the background is not overlaid with what is around it.
     if ((modifiers & kBackground) == 0 && !open.empty()) modifiers |= open.back().modifiers;
     const bool is_leaf = !is_group(node.kind);
-    if (is_leaf && modifiers != 0) result.push_back({i, modifiers, around});
+    const size_t parts = open.empty() ? 0 : open.back().parts;
+    const bool is_part = is_leaf && modifiers != 0 && parts < kMostNestedHighlights;
+    if (is_part) result.push_back({i, modifiers, around});
     if (!shows_parts(node.kind)) {
       i = subtree.end_of(i);
       continue;
     }
-    open.push_back({subtree.end_of(i), is_leaf ? uint8_t{0} : modifiers});
+    open.push_back({subtree.end_of(i), is_leaf ? uint8_t{0} : modifiers, parts + (is_part ? 1 : 0)});
     if (node.kind == NodeKind::kMultmatrix || node.kind == NodeKind::kColor) around.push_back(i);
     ++i;
   }

@@ -7,10 +7,6 @@
 namespace frontend {
 namespace {
 
-// A `#` part inside a `#` part is overlaid once more, as OpenSCAD does. Beyond so many inside one
-// another no more are added: the overlay would grow with the square of the nesting.
-constexpr size_t kMostNestedHighlights = 8;
-
 /// A node whose operands are being looked at.
 struct Open {
   uint32_t node;

@@ -11,6 +11,10 @@
 
 namespace frontend {
 
+/// A `#` part inside a `#` part is overlaid once more, as OpenSCAD does. Beyond so many inside one
+/// another no more are added: the overlay would grow with the square of the nesting.
+constexpr size_t kMostNestedHighlights = 8;
+
 /// What a node is as an operand.
 enum class Presence : uint8_t {
   kAbsent,      // nothing: disabled, or outside the subtree that `!` selects

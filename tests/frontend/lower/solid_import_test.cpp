@@ -248,6 +248,15 @@ TEST(SolidHull, ShowsThePartsInsideThatHaveModifiers) {
               SizeIs(1));
 }
 
+TEST(SolidHull, OverlaysOnlyAFewHighlightsInsideOneAnother) {
+  constexpr int kLevels = 200;
+  std::string text;
+  for (int i = 0; i < kLevels; ++i) text += "hull() { #";
+  text += "sphere();";
+  text.append(kLevels, '}');
+  EXPECT_THAT(import_text(text).scene.primitives, SizeIs(9)) << "the hull, and eight over it";
+}
+
 TEST(SolidHull, ShowsThePartsInsideInTheirOwnColors) {
   const ImportedDesign design = import_text(
       "hull() { cube(1); color([1,0,0]) { %cube(2); } %group() { color([0,0,1]) { cube(3); } "
