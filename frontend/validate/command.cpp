@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "csg/evaluated_tree.hpp"
 #include "extrusion_judge.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
@@ -75,6 +74,7 @@ class Run {
     name_ = file.name;
     frontend::ImportedDesign design = frontend::import_design(file);
     text_ = std::move(file.text);
+    tree_ = std::move(file.tree);
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
@@ -85,14 +85,10 @@ class Run {
 
   /// Compares the extrusions that turn, each for itself.
   void judge_extrusions_alone(Result& result) {
-    frontend::SyntaxTree tree =
-        text_.evaluation
-            ? frontend::tree_of(*text_.evaluation->tree, *text_.evaluation->files, text_.name)
-            : frontend::parse(text_.csg.view(), text_.name);
     const auto time =
         std::chrono::duration<double>(kExtrusionShare * options_.settings.time_limit_s);
     Result extrusions = judge_extrusions(
-        std::move(tree), frontend::beside(options_.input, text_, options_.import),
+        tree_, frontend::beside(options_.input, text_, options_.import),
         options_.settings, Clock::now() + std::chrono::duration_cast<Clock::duration>(time),
         show_progress_);
     std::ranges::move(extrusions.checks, std::back_inserter(result.checks));
@@ -131,6 +127,7 @@ class Run {
   const Options& options_;
   std::string name_;
   frontend::DesignText text_;
+  frontend::DesignTree tree_;
   std::vector<std::string> not_judged_;
   frontend::ProgressLine progress_;
   const Progress show_progress_ = [this](const std::string& stage, double fraction) {

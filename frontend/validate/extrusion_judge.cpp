@@ -15,6 +15,7 @@
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/importer.hpp"
+#include "lower/argument_lookup.hpp"
 #include "lower/read_2d.hpp"
 #include "lower/render_text.hpp"
 #include "render/scene_scale.hpp"
@@ -28,8 +29,8 @@ namespace {
 using csgcore::Ray;
 using csgcore::Vec3;
 using frontend::NodeKind;
-using frontend::SyntaxNode;
-using frontend::SyntaxTree;
+using frontend::Node;
+using frontend::NodeTree;
 
 constexpr const char* kGroup = "extrusions that turn, against OpenSCAD's facets";
 
@@ -38,17 +39,15 @@ constexpr double kDigits = 1e-5;
 /// OpenSCAD cuts the coordinates of outlines to 2^-16, and drops what is within 1.4 times that.
 constexpr double kGrid = 0x1p-14;
 
-bool has_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name) {
-  return std::ranges::any_of(tree.arguments_of(node), [&](const frontend::Argument& argument) {
-    return argument.name == name && argument.value.kind != frontend::ValueKind::kUndef;
-  });
+bool has_argument(const NodeTree& tree, const Node& node, language::ArgumentName name) {
+  return !frontend::find_argument(tree, node, name).is_undef();
 }
 
 /// Returns whether OpenSCAD 2021.01 knows all that the subtree says.
-bool is_known(const SyntaxTree& tree, uint32_t root) {
+bool is_known(const NodeTree& tree, uint32_t root) {
   if (!frontend::may_be_rendered(tree, root)) return false;
-  for (uint32_t i = root; i < tree.nodes[root].subtree_end; ++i) {
-    const SyntaxNode& node = tree.nodes[i];
+  for (uint32_t i = root; i < tree.nodes[root].end; ++i) {
+    const Node& node = tree.nodes[i];
     const bool is_new =
         (node.kind == NodeKind::kLinearExtrude &&
          (has_argument(tree, node, "v") || has_argument(tree, node, "segments"))) ||
@@ -58,7 +57,7 @@ bool is_known(const SyntaxTree& tree, uint32_t root) {
   return true;
 }
 
-bool turns(const SyntaxTree& tree, const SyntaxNode& node) {
+bool turns(const NodeTree& tree, const Node& node) {
   if (node.kind != NodeKind::kLinearExtrude) return false;
   frontend::NodeProblems told;  // when the design was imported
   const frontend::LinearExtrudeArguments given = read_linear_extrude(tree, node, told);
@@ -66,12 +65,12 @@ bool turns(const SyntaxTree& tree, const SyntaxNode& node) {
 }
 
 /// The nodes that turn, but for those that are not of the model.
-std::vector<uint32_t> turning_nodes(const SyntaxTree& tree) {
+std::vector<uint32_t> turning_nodes(const NodeTree& tree) {
   std::vector<uint32_t> result;
-  for (uint32_t i = 0; i < tree.nodes.size();) {
-    const SyntaxNode& node = tree.nodes[i];
-    if ((node.modifiers & (frontend::kDisable | frontend::kBackground)) != 0) {
-      i = node.subtree_end;
+  for (uint32_t i = 0; i < tree.size();) {
+    const Node& node = tree.nodes[i];
+    if ((node.modifiers & language::kBackgroundModifier) != 0) {
+      i = node.end;
       continue;
     }
     if (turns(tree, node)) result.push_back(i);
@@ -189,9 +188,9 @@ class Extrusion {
 
 class ExtrusionJudge {
  public:
-  ExtrusionJudge(SyntaxTree tree, const frontend::ImportOptions& options,
+  ExtrusionJudge(const frontend::DesignTree& tree, const frontend::ImportOptions& options,
                  Clock::time_point deadline)
-      : tree_(std::move(tree)), options_(options), deadline_(deadline) {
+      : design_(tree), tree_(*tree.nodes), options_(options), deadline_(deadline) {
     options_.facets = frontend::Facets::kAll;
     if (options.font_files) fonts_ = options.font_files();
   }
@@ -207,20 +206,22 @@ class ExtrusionJudge {
       return leave_out(is_late ? "openscad has not finished in time (raise --time-limit)"
                                : truth.problem);
     }
-    const frontend::ImportedDesign design = imported(node);
-    if (design.left_out > 0) return;  // which is said elsewhere
-    const int exponent = frontend::scale_exponent(design.scene);
+    const std::optional<frontend::ImportedDesign> design = imported(node);
+    if (!design) return leave_out("its lists are nested too deeply");
+    if (design->left_out > 0) return;  // which is said elsewhere
+    const int exponent = frontend::scale_exponent(design->scene);
     const double scale = std::ldexp(1, exponent);
     const Facets facets(*truth.faces, scale);
     const csgcore::Scene scene =
-        exponent == 0 ? design.scene : frontend::scaled(design.scene, exponent);
+        exponent == 0 ? design->scene : frontend::scaled(design->scene, exponent);
     if (facets.box().empty() && scene.primitives.empty()) return;
     frontend::NodeProblems told;
     const Vec2 top = read_linear_extrude(tree_, tree_.nodes[node], told).top_scale;
     const double rounding = kGrid * std::max({1.0, top.x, top.y}) * scale;
-    const frontend::Location location = tree_.nodes[node].location;
+    const language::Place place = tree_.nodes[node].place;
+    const frontend::Location location = design_.location_of(place);
     extrusions_.push_back(std::make_unique<Extrusion>(scene, facets, rounding,
-                                                      tree_.file_of(location) + ':' +
+                                                      design_.file_of(place) + ':' +
                                                           std::to_string(location.line) + ':' +
                                                           std::to_string(location.column)));
   }
@@ -248,25 +249,23 @@ class ExtrusionJudge {
   using Vec2 = frontend::Vec2;
 
   /// Imports the node alone, with all digits of its numbers.
-  frontend::ImportedDesign imported(uint32_t root) {
-    const auto begin = tree_.nodes.begin();
-    std::vector<SyntaxNode> nodes(begin + root, begin + tree_.nodes[root].subtree_end);
-    for (SyntaxNode& node : nodes) {
-      node.subtree_end -= root;
-      node.modifiers &= frontend::kDisable | frontend::kBackground;
+  std::optional<frontend::ImportedDesign> imported(uint32_t root) {
+    auto alone = std::make_shared<NodeTree>();
+    alone->has_all_digits = tree_.has_all_digits;
+    const auto same_place = [](language::Place place) { return place; };
+    if (!alone->append(tree_, root, tree_.nodes[root].end, same_place)) return std::nullopt;
+    for (uint32_t i = 0; i < alone->size(); ++i) {
+      alone->nodes[i].modifiers &= i == 0 ? 0 : language::kBackgroundModifier;
     }
-    nodes.front().modifiers = 0;
-    tree_.nodes.swap(nodes);
-    frontend::ImportedDesign design = frontend::import_design(tree_, options_);
-    tree_.nodes.swap(nodes);
-    return design;
+    return frontend::import_design({alone, design_.files, design_.name}, options_);
   }
 
   void leave_out(const std::string& why) {
     if (left_out_++ == 0) why_ = why;
   }
 
-  SyntaxTree tree_;
+  const frontend::DesignTree& design_;
+  const NodeTree& tree_;
   frontend::ImportOptions options_;
   const Clock::time_point deadline_;
   std::vector<std::string> fonts_;
@@ -278,12 +277,12 @@ class ExtrusionJudge {
 
 }  // namespace
 
-Result judge_extrusions(SyntaxTree tree, const frontend::ImportOptions& options,
+Result judge_extrusions(const frontend::DesignTree& tree, const frontend::ImportOptions& options,
                         const Settings& settings, Clock::time_point deadline,
                         const Progress& progress) {
-  const std::vector<uint32_t> nodes = turning_nodes(tree);
+  const std::vector<uint32_t> nodes = turning_nodes(*tree.nodes);
   if (nodes.empty()) return {};
-  ExtrusionJudge judge(std::move(tree), options, deadline);
+  ExtrusionJudge judge(tree, options, deadline);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     progress("OpenSCAD's extrusions", static_cast<double>(i) / static_cast<double>(nodes.size()));
     judge.take(nodes[i]);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "frontend/import_options.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "validation.hpp"
 
 namespace validation {
@@ -13,7 +13,7 @@ namespace validation {
 /// from outside, along which both must see the same place.
 ///
 /// What openscad cannot judge is left out, with a note. It gets until the deadline.
-Result judge_extrusions(frontend::SyntaxTree tree, const frontend::ImportOptions& options,
+Result judge_extrusions(const frontend::DesignTree& tree, const frontend::ImportOptions& options,
                         const Settings& settings, Clock::time_point deadline,
                         const Progress& progress);
 

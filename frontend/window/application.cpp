@@ -145,7 +145,7 @@ void Application::open_design(const std::string& path) {
   end_hover();
   state_.begin(options_);
   options_.camera.projection = state_.navigation.projection();
-  texts_ = {};
+  tree_ = {};
   inputs_ = {};
   asked_camera_ = {};
   has_camera_ = !frontend::sees_all(options_.camera);
@@ -345,7 +345,7 @@ bool Application::take_news() {
 void Application::take_version(frontend::DesignVersion version) {
   const bool is_shown = state_.is_to_be_shown(version);
   const bool leaves_picture = !is_shown || version.unchanged;
-  if (is_shown) texts_ = version.texts;
+  if (is_shown) tree_ = version.source.tree;
   // What openscad renders comes as another version of the same reading.
   const bool is_read_anew = !state_.version || state_.version->noticed != version.noticed;
   if (options_.prints_echoes && is_read_anew) print_echoes(version);

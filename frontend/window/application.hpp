@@ -108,7 +108,7 @@ class Application final : private WindowEvents {
   Painter painter_;
   frontend::DesignFollower follower_;
 
-  frontend::DesignTexts texts_;          // of the design that is shown
+  frontend::DesignTree tree_;            // of the design that is shown
   frontend::DesignInputs inputs_;        // that the follower has been given
   frontend::DesignCamera asked_camera_;  // that the newest version asks for
   PaintOrder ordered_;                   // the last order

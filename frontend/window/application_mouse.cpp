@@ -118,7 +118,7 @@ void Application::probe(const PicturePoint& place, Probe::Purpose purpose, doubl
   probe.order = wanted_picture();
   probe.place = place;
   probe.snap_px = snap_px;
-  probe.texts = texts_;
+  probe.tree = tree_;
   painter_.probe(std::move(probe));
 }
 

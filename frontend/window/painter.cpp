@@ -288,7 +288,7 @@ void Painter::describe(const RayHit& hit, Finding& finding) const {
     if (!around) return;
     primitive = *around;
   }
-  finding.place = frontend::leaf_place(finding.probe.texts,
+  finding.place = frontend::leaf_place(finding.probe.tree,
                                        design.places.at(design.scene.primitives[primitive].id));
 }
 

@@ -58,7 +58,7 @@ struct Probe {
   PaintOrder order;
   PicturePoint place{};
   double snap_px = 0;  // kMeasure: how far a feature may be that it snaps to; 0: it doesn't
-  frontend::DesignTexts texts;  // for the places in the design
+  frontend::DesignTree tree;  // for the places in the design
 };
 
 /// The point that is seen at a probe's place.

@@ -93,13 +93,11 @@ TEST_P(Example, HasItsNumberOfPrimitives) {
 }
 
 TEST_P(Example, IsRoundEnoughToCompareWithOpenScad) {
-  const SyntaxTree tree = parse(test_support::csg_text(scad_of(GetParam())), GetParam());
-  for (const SyntaxNode& node : tree.nodes) {
-    for (const Argument& argument : tree.arguments_of(node)) {
-      if (argument.name != "$fn") continue;
-      // Up to 8 fragments the polygon itself is meant.
-      EXPECT_THAT(argument.value.number, testing::AnyOf(testing::Le(8), testing::Ge(48)));
-    }
+  const DesignTree tree = parse(test_support::csg_text(scad_of(GetParam())), GetParam());
+  for (const language::NodeArgument& argument : tree.nodes->arguments) {
+    if (argument.name != "$fn") continue;
+    // Up to 8 fragments the polygon itself is meant.
+    EXPECT_THAT(argument.value.number(), testing::AnyOf(testing::Le(8), testing::Ge(48)));
   }
 }
 

@@ -9,55 +9,39 @@
 namespace fuzz {
 namespace {
 
-using frontend::SyntaxTree;
-using frontend::Value;
-using frontend::ValueKind;
-
-bool is_within(const SyntaxTree& tree, const Value& value) {
-  const size_t size = value.kind == ValueKind::kList     ? tree.values.size()
-                      : value.kind == ValueKind::kString ? tree.strings.size()
-                                                         : SIZE_MAX;
-  return size == SIZE_MAX || (value.first <= size && value.count <= size - value.first);
-}
+using language::NodeTree;
 
 /// Returns whether every subtree ends within its parent's, and no node keeps a bit that only the
 /// parser uses.
-bool is_nested(const SyntaxTree& tree) {
-  std::vector<size_t> ends = {tree.nodes.size()};
-  for (size_t i = 0; i < tree.nodes.size(); ++i) {
+bool is_nested(const NodeTree& tree) {
+  constexpr uint8_t kAllModifiers = 7;
+  std::vector<uint32_t> ends = {tree.size()};
+  for (uint32_t i = 0; i < tree.size(); ++i) {
     while (ends.back() == i && ends.size() > 1) ends.pop_back();
-    const frontend::SyntaxNode& node = tree.nodes[i];
-    if (node.subtree_end <= i || node.subtree_end > ends.back() || node.modifiers > 15)
-      return false;
-    ends.push_back(node.subtree_end);
+    const language::Node& node = tree.nodes[i];
+    if (node.end <= i || node.end > ends.back() || node.modifiers > kAllModifiers) return false;
+    ends.push_back(node.end);
   }
   return true;
 }
 
-std::string fault_of(const SyntaxTree& tree) {
+std::string fault_of(const frontend::DesignTree& design) {
+  const NodeTree& tree = *design.nodes;
   if (!is_nested(tree)) return "subtrees are not nested";
-  size_t arguments = 0;
-  for (const frontend::SyntaxNode& node : tree.nodes) {
+  size_t arguments = 0, numbers = 0;
+  for (const language::Node& node : tree.nodes) {
     if (node.first_argument != arguments) return "arguments are not in the nodes' order";
-    arguments += node.argument_count;
-    if (node.location.line == 0 || node.location.column == 0) return "a node has no place";
+    arguments += tree.arguments_of(node).size();
+    const frontend::Location location = design.location_of(node.place);
+    if (location.line == 0 || location.column == 0) return "a node has no place";
   }
   if (arguments != tree.arguments.size()) return "an argument belongs to no node";
-  for (const frontend::Argument& argument : tree.arguments) {
-    if (!is_within(tree, argument.value)) return "an argument refers out of the tree";
-    for (const char c : argument.name) {
-      if (c != '$' && c != '_' && !std::isalnum(static_cast<unsigned char>(c))) {
-        return "an argument's name is no identifier";
-      }
-    }
+  for (const language::NodeArgument& argument : tree.arguments) {
+    if (argument.number_count == 0) continue;
+    if (argument.first_number != numbers) return "numbers are not in the arguments' order";
+    numbers += argument.number_count;
   }
-  for (size_t i = 0; i < tree.values.size(); ++i) {
-    const Value& value = tree.values[i];
-    if (!is_within(tree, value)) return "a value refers out of the tree";
-    // Inner lists are stored first, so that walking down a list comes to an end.
-    if (value.kind == ValueKind::kList && value.first + value.count > i)
-      return "a list holds itself";
-  }
+  if (numbers != tree.numbers.size()) return "a number belongs to no argument";
   return "";
 }
 
@@ -100,7 +84,7 @@ std::string fault_of_starts(std::string_view text) {
 }  // namespace
 
 std::string fault_of(std::string_view text) {
-  std::optional<SyntaxTree> tree;
+  std::optional<frontend::DesignTree> tree;
   // The files that the corpus imports.
   const frontend::ImportOptions options{.folder = SCADRAY_FUZZ_FILES};
   const Outcome outcome = outcome_of([&] {

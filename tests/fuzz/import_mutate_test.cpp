@@ -104,7 +104,7 @@ class MutatedImports : public testing::Test {
     fuzz::for_each_damaged(kWords, {&content, 1}, kSample, [&](const std::string& damaged) {
       std::ofstream(folder_ + '/' + name, std::ios::binary) << damaged;
       const std::clock_t start = std::clock();
-      const frontend::SyntaxTree tree = frontend::parse(design, "fuzz.csg");
+      const frontend::DesignTree tree = frontend::parse(design, "fuzz.csg");
       const auto import = frontend::import_design(tree, {.folder = folder_});
       constexpr double kMost_s = 10;  // under sanitizers; 2 without
       ASSERT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kMost_s);

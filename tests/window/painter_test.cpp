@@ -20,7 +20,6 @@
 #include "frontend/parser.hpp"
 #include "frontend/render.hpp"
 #include "support/models.hpp"
-#include "temporary_folder.hpp"
 
 namespace window {
 namespace {
@@ -372,11 +371,9 @@ class ProbeTest : public PainterTest {
     probe.order = order_of(design_of(text));
     probe.order.navigation = {{Vec3(0), Vec3(0), 100}, Projection::kOrthographic};
     probe.place = {x_px, y_px};
-    probe.texts.csg = std::make_shared<frontend::FileText>(
-        frontend::read_file(folder_.write("probed.csg", text)));
+    probe.tree = frontend::parse(text, "probed.csg");
     return probe;
   }
-  frontend::TemporaryFolder folder_;
 };
 
 TEST_F(ProbeTest, FindsPointNormalAndLine) {
@@ -418,16 +415,6 @@ TEST_F(ProbeTest, TheCutNamesTheLeafThatIsCut) {
   EXPECT_EQ(finding.place.step().place.line, 2u);
   EXPECT_EQ(finding.surface.kind, Surface::Kind::kPlane);
   EXPECT_NEAR(finding.position.z, 1.5, 1e-12);
-}
-
-TEST_F(ProbeTest, NoClickParsesTheDesign) {
-  Painter& painter = this->painter();
-  Probe probe = probe_of("\n" + window_test::kBall, 80, 60);
-  // The text continues as no .csg does: only the primitive's own line may be read.
-  probe.texts.csg = std::make_shared<frontend::FileText>(
-      frontend::read_file(folder_.write("broken.csg", "\n" + window_test::kBall + "}} (")));
-  painter.probe(probe);
-  EXPECT_EQ(next_finding().place.step().what, "sphere(r = 10)");
 }
 
 TEST_F(ProbeTest, EachIsAnsweredInTurn) {

@@ -25,7 +25,8 @@ struct DesignText {
   FileText csg;
   /// What text_in_memory() gives of the design: the text that is evaluated.
   std::optional<FileText> scad{};
-  std::optional<SyntaxTree> tree{};  // of `csg`, if it had to be parsed to tell that it is one
+  std::string csg_path{};            // absolute, of the file that `csg` is from; "": there is none
+  std::optional<DesignTree> tree{};  // of `csg`, if it had to be parsed to tell that it is one
   std::shared_ptr<const language::Evaluation> evaluation{};  // in place of a text, if not null
   std::string name;                                          // for the parser's messages
   bool is_exported = false;        // it was made from a .scad, by scadray or openscad
@@ -38,8 +39,8 @@ struct DesignText {
 struct DesignFile {
   std::string name{};                // as messages show it
   std::size_t file_bytes = 0;        // size of the .csg text that was parsed
-  SyntaxTree tree;                   // import_design() takes it
-  ImportOptions import{};            // and these
+  DesignTree tree;
+  ImportOptions import{};            // import_design() takes these, too
   DesignCamera camera{};             // that the design asks for
   bool is_exported = false;          // it was made from a .scad, by scadray or openscad
   std::vector<std::string> files{};  // files it was read from, the design last; empty unless wanted
@@ -77,16 +78,12 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 /// if memory runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
-/// Returns the tree of what was read, and takes it out of the text if it has one. Throws what
-/// parse() throws (parser.hpp).
-SyntaxTree parse_design(DesignText& text, const std::stop_token& stop = {});
-/// The same of the parts of a DesignText; the text of `csg` counts if `evaluation` is null.
-SyntaxTree parse_design(const FileText& csg, const language::Evaluation* evaluation,
-                        const std::string& name, const std::stop_token& stop = {});
+/// Returns the tree of what was read. Throws what parse() throws (parser.hpp).
+DesignTree tree_of(const DesignText& text, const std::stop_token& stop = {});
 
-/// Imports `file.tree`; may be called once. Throws what import_design() throws (importer.hpp), and
+/// Imports `file.tree`. Throws what import_design() throws (importer.hpp), and
 /// Error if memory runs out.
-ImportedDesign import_design(DesignFile& file);
+ImportedDesign import_design(const DesignFile& file);
 
 /// The first step of read_design(): evaluates the design, or reads it if it is a .csg. The result
 /// may be only a start of the text, if that start shows that the text cannot be parsed. `files`

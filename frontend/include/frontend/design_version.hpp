@@ -11,7 +11,7 @@
 
 #include "frontend/camera.hpp"
 #include "frontend/design_inputs.hpp"
-#include "frontend/file_text.hpp"
+#include "frontend/design_tree.hpp"
 #include "frontend/imported_design.hpp"
 #include "frontend/source_place.hpp"
 #include "language/customizer_parameter.hpp"
@@ -22,12 +22,10 @@ struct Evaluation;
 
 namespace frontend {
 
-/// The texts that the places of a design's primitives are in: of a .csg, or of the files of an
-/// evaluated .scad.
-struct DesignTexts {
-  std::shared_ptr<const FileText> csg;
-  std::string csg_path;  // absolute, where the design's own file is that .csg; else ""
-  std::shared_ptr<const language::Evaluation> evaluation;  // counts where it is not null
+/// What a design was made from.
+struct DesignSource {
+  DesignTree tree;
+  std::shared_ptr<const language::Evaluation> evaluation;  // null: the tree is a .csg's
 };
 
 /// Returns whether a message is what echo() has said.
@@ -59,12 +57,11 @@ struct DesignVersion {
   /// The .csg is byte for byte, or the evaluated tree node for node, that of the last version that
   /// could be read, and `design` is that version's pointer. The messages may differ.
   bool unchanged = false;
-  DesignTexts texts;    // that `design` was made from
+  DesignSource source;  // that `design` was made from
   DesignInputs inputs;  // that it was read with
   DesignCamera camera;  // that the design asks for
   /// Those of the last text that could be parsed; null: there was none, or it is no .scad.
   std::shared_ptr<const DesignParameters> parameters;
-  std::size_t nodes = 0;  // of the .csg; those of the last version if it is unchanged
   double export_ms = 0;   // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;

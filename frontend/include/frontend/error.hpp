@@ -11,7 +11,6 @@ namespace frontend {
 struct Location {
   uint32_t line = 0;
   uint32_t column = 0;
-  uint32_t file = 0;  // index into SyntaxTree::file_names; of a text that stands alone: 0
 };
 
 /// A warning is collected and shown on stderr, not thrown.

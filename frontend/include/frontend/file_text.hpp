@@ -27,6 +27,7 @@ class FileText {
     bytes_ = std::move(bytes);
   }
   std::string_view view() const { return {bytes_.get(), size_}; }
+  const std::shared_ptr<const char[]>& bytes() const { return bytes_; }
 
  private:
   std::shared_ptr<const char[]> bytes_;

@@ -12,15 +12,6 @@
 
 namespace frontend {
 
-/// Where the node stands that a primitive is made of: a primitive node, or the root of a subtree
-/// that is one solid or figure (a hull, an extrusion, an offset).
-struct PrimitivePlace {
-  uint32_t node = 0;    // index into SyntaxTree::nodes
-  uint32_t line = 0;    // from 1
-  uint32_t offset = 0;  // of its name, in bytes from the text's start
-  uint32_t file = 0;    // Location::file
-};
-
 struct ImportedDesign {
   csgcore::Scene scene;
   /// What OpenSCAD's --viewall looks at: the union of the positive leaves' boxes, each the box of
@@ -45,8 +36,9 @@ struct ImportedDesign {
   /// The time that openscad took, or the search for what it has rendered before.
   double rendering_ms = 0;
   /// By Primitive::id, as many as there are such nodes, where ImportOptions::keeps_places asks for
-  /// it.
-  std::vector<PrimitivePlace> places;
+  /// it: the index of the node that the primitive is made of, which is a primitive node, or the
+  /// root of a subtree that is one solid or figure (a hull, an extrusion, an offset).
+  std::vector<uint32_t> places;
   std::vector<Warning> warnings;
   /// The files that its nodes name, and the fonts that it brings along if it has text, whether or
   /// not they are there.

@@ -1,11 +1,11 @@
-// Syntax tree → csgcore::Scene (frontend/OPENSCAD.md, "What nodes mean").
+// The tree of a design → csgcore::Scene (frontend/OPENSCAD.md, "What nodes mean").
 #pragma once
 
 #include <stop_token>
 
 #include "frontend/import_options.hpp"
 #include "frontend/imported_design.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 
 namespace frontend {
 
@@ -14,10 +14,7 @@ namespace frontend {
 /// with its place and says how many there are. A round primitive whose facets would take too much
 /// memory stays smooth, with one warning for all. Throws nothing but Stopped (stop.hpp), where
 /// `stop` asks for it.
-ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {},
-                             const std::stop_token& stop = {});
-/// The same; the tree loses its arguments as soon as they are read, which takes less memory.
-ImportedDesign import_design(SyntaxTree&& tree, const ImportOptions& options = {},
+ImportedDesign import_design(const DesignTree& tree, const ImportOptions& options = {},
                              const std::stop_token& stop = {});
 
 }  // namespace frontend

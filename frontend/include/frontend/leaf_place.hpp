@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/design_version.hpp"
-#include "frontend/imported_design.hpp"
+#include "frontend/design_tree.hpp"
 #include "frontend/source_place.hpp"
 
 namespace frontend {
@@ -27,7 +26,7 @@ struct LeafPlace {
   const TrailStep& step() const { return trail[leaf]; }
 };
 
-/// Of a design that scadray did not evaluate itself the trail is the leaf alone, in the .csg.
-LeafPlace leaf_place(const DesignTexts& texts, const PrimitivePlace& place);
+/// `node` is one of ImportedDesign::places. A .csg has no calls: the trail is in the .csg.
+LeafPlace leaf_place(const DesignTree& tree, uint32_t node);
 
 }  // namespace frontend

@@ -177,7 +177,7 @@ class Run {
     stats_.read_ms = file.read_ms;
     stats_.export_ms = file.export_ms;
     stats_.parse_ms = file.parse_ms;
-    stats_.nodes = file.tree.nodes.size();
+    stats_.nodes = file.tree.nodes->size();
     is_exported_ = file.is_exported;
     design_camera_ = file.camera;
     show_progress("importing", -1);

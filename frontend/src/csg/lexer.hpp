@@ -21,20 +21,15 @@ std::string quoted(std::string_view word);
 
 class Lexer {
  public:
-  /// `text` must outlive the lexer. A byte order mark at its start is skipped.
+  /// `text` must outlive the lexer.
   Lexer(std::string_view text, const std::string& file_name)
-      : begin_(text.data()), end_(begin_ + text.size()), file_name_(file_name) {
-    if (text.starts_with("\xEF\xBB\xBF")) begin_ += 3;
-    at_ = line_start_ = begin_;
-  }
+      : begin_(text.data()), end_(begin_ + text.size()), at_(begin_), file_name_(file_name) {}
 
   bool at_end() const { return at_ == end_; }
   /// Returns the next byte, or NUL at the end (a NUL byte is as wrong as the end there).
   char peek() const { return at_ == end_ ? '\0' : *at_; }
   void advance() { ++at_; }
   const char* position() const { return at_; }
-  /// The place of the next byte.
-  Location location() const { return {line_, static_cast<uint32_t>(at_ - line_start_) + 1}; }
 
   void skip_space();
   /// Takes the next byte if it is `c`. Returns whether it was.
@@ -50,7 +45,7 @@ class Lexer {
   /// Takes a number of the common form: perhaps a minus, a few digits, no exponent. Returns false,
   /// and takes nothing, if there is none.
   bool plain_number(double& value);
-  /// Moves back to a position on the same line.
+  /// Moves back to an earlier position.
   void go_back(const char* position) { at_ = position; }
   /// Takes a string with its quotes, and returns what is between them, escapes as written.
   std::string_view quoted_string();
@@ -86,8 +81,6 @@ class Lexer {
   }
   static std::string_view after_space(std::string_view text);
   std::string_view rest() const { return {at_, static_cast<size_t>(end_ - at_)}; }
-  /// Moves the cursor to `to`, counting the lines passed.
-  void move_over(const char* to);
   void skip_comment();
   bool plain_digits(double& value);
   double number_by_library();
@@ -99,10 +92,8 @@ class Lexer {
   const char* begin_;
   const char* end_;
   const char* at_;
-  const char* line_start_;
   const char* text_end_ = nullptr;  // where kTextEnd was found last, so that no part of the text is
                                     // searched twice
-  uint32_t line_ = 1;
   bool seeks_end_ = false;  // the end of a comment, string or text is missing
   const std::string& file_name_;
 };
@@ -110,14 +101,10 @@ class Lexer {
 inline void Lexer::skip_space() {
   for (; at_ != end_; ++at_) {
     const char c = *at_;
-    if (c == ' ' || c == '\t') continue;
-    if (c == '\n') {
-      ++line_;
-      line_start_ = at_ + 1;
-    } else if (c == '/') {
+    if (c == '/') {
       skip_comment();
       --at_;  // the loop steps on
-    } else if (c != '\r' && c != '\v' && c != '\f') {
+    } else if (c != ' ' && (c < '\t' || c > '\r')) {
       return;
     }
   }
@@ -181,14 +168,6 @@ inline bool Lexer::plain_digits(double& value) {
   return true;
 }
 
-inline void Lexer::move_over(const char* to) {
-  for (; at_ != to; ++at_) {
-    if (*at_ != '\n') continue;
-    ++line_;
-    line_start_ = at_ + 1;
-  }
-}
-
 inline void Lexer::skip_comment() {
   if (ahead("//")) {
     at_ += std::min(rest().find('\n'), rest().size());
@@ -198,7 +177,7 @@ inline void Lexer::skip_comment() {
       seeks_end_ = true;
       fail("the comment is not closed", "end it with */");
     }
-    move_over(at_ + close + 2);
+    at_ += close + 2;
   } else {
     fail("'/' outside a comment", "a .csg holds values, no expressions");
   }
@@ -255,7 +234,7 @@ inline std::string_view Lexer::quoted_string() {
     seeks_end_ = true;
     fail("the string is not closed", "end it with '\"'");
   }
-  move_over(quote + 1);
+  at_ = quote + 1;
   return {first, static_cast<size_t>(quote - first)};
 }
 
@@ -302,7 +281,7 @@ inline bool Lexer::raw_text(std::string_view& text) {
     return false;
   }
   text = {first, static_cast<size_t>(text_end_ - first)};
-  move_over(text_end_ + 1);
+  at_ = text_end_ + 1;
   return true;
 }
 

@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "csg/argument_value.hpp"
+
 namespace frontend {
 namespace {
 
@@ -12,8 +14,8 @@ namespace {
 constexpr std::size_t kMostCharacters = 24, kMostElements = 4;
 
 /// The arguments that tell what a node is, in the order in which they are shown.
-std::span<const std::string_view> telling_arguments(NodeKind kind) {
-  static constexpr std::string_view kSphere[] = {"r"}, kCylinder[] = {"h", "r1", "r2"},
+std::span<const language::ArgumentName> telling_arguments(NodeKind kind) {
+  static constexpr language::ArgumentName kSphere[] = {"r"}, kCylinder[] = {"h", "r1", "r2"},
                                     kSize[] = {"size"}, kText[] = {"text"},
                                     kLinear[] = {"height", "twist", "scale"}, kAngle[] = {"angle"},
                                     kFile[] = {"file"}, kCut[] = {"cut"},
@@ -49,7 +51,7 @@ std::span<const std::string_view> telling_arguments(NodeKind kind) {
 
 class Writer {
  public:
-  Writer(const SyntaxTree& tree, const SyntaxNode& node) : tree_(tree), node_(node) {}
+  Writer(const NodeTree& tree, const Node& node) : tree_(tree), node_(node) {}
 
   std::string label() {
     text_ = name_of(node_.kind);
@@ -65,78 +67,79 @@ class Writer {
   }
 
  private:
-  const Value* find(std::string_view name) const {
-    for (const Argument& argument : tree_.arguments_of(node_)) {
-      if (argument.name == name) return &argument.value;
+  /// Returns the argument of that name; undef if there is none.
+  ArgumentValue find(language::ArgumentName name) const {
+    for (const language::NodeArgument& argument : tree_.arguments_of(node_)) {
+      if (argument.name == name) return {tree_, argument};
     }
-    return nullptr;
+    return {};
   }
 
-  void add_count(std::string_view name, std::string_view unit) {
-    const Value* const list = find(name);
-    if (list == nullptr || list->kind != ValueKind::kList) return;
-    text_ += std::to_string(list->count) += ' ';
+  void add_count(language::ArgumentName name, std::string_view unit) {
+    const ArgumentValue list = find(name);
+    if (!list.is_list()) return;
+    text_ += std::to_string(list.elements().size()) += ' ';
     text_ += unit;
   }
 
   void add_arguments() {
-    for (const Argument& argument : tree_.arguments_of(node_)) {
-      if (argument.name.empty()) add({}, argument.value);
+    for (const language::NodeArgument& argument : tree_.arguments_of(node_)) {
+      if (argument.name.is_positional()) add({}, {tree_, argument});
     }
-    const Value *const r1 = find("r1"), *const r2 = find("r2");
-    const bool is_straight = node_.kind == NodeKind::kCylinder && r1 && r2 && are_equal(*r1, *r2);
-    for (const std::string_view name : telling_arguments(node_.kind)) {
-      const Value* const value = find(name);
-      if (value == nullptr || is_usual(name, *value)) continue;
+    const bool is_straight =
+        node_.kind == NodeKind::kCylinder && are_equal(find("r1"), find("r2"));
+    for (const language::ArgumentName name : telling_arguments(node_.kind)) {
+      const ArgumentValue value = find(name);
+      if (is_usual(name, value)) continue;
       if (is_straight && name == "r2") continue;
-      add(is_straight && name == "r1" ? "r" : name, *value);
+      add(is_straight && name == "r1" ? "r" : name.text(), value);
     }
   }
 
-  static bool are_equal(const Value& a, const Value& b) {
-    return a.kind == ValueKind::kNumber && b.kind == ValueKind::kNumber && a.number == b.number;
+  static bool are_equal(const ArgumentValue& a, const ArgumentValue& b) {
+    return a.is_number() && b.is_number() && a.number() == b.number();
   }
 
   /// Whether a value says nothing: OpenSCAD writes it where the design does not.
-  bool is_usual(std::string_view name, const Value& value) const {
-    if (value.kind == ValueKind::kUndef) return true;
+  bool is_usual(language::ArgumentName name, const ArgumentValue& value) const {
+    if (value.is_undef()) return true;
     const double usual = name == "twist" ? 0 : name == "scale" ? 1 : name == "angle" ? 360 : -1;
-    if (name == "cut") return value.kind == ValueKind::kBool && !value.boolean;
+    if (name == "cut") return value.kind() == ValueKind::kBool && !value.boolean();
     if (usual < 0) return false;
-    if (value.kind == ValueKind::kNumber) return value.number == usual;
-    if (value.kind != ValueKind::kList) return false;
-    const std::span<const Value> elements = tree_.elements_of(value);
-    return std::all_of(elements.begin(), elements.end(), [&](const Value& element) {
-      return element.kind == ValueKind::kNumber && element.number == usual;
-    });
+    if (value.is_number()) return value.number() == usual;
+    if (!value.is_list()) return false;
+    for (const ArgumentValue element : value.elements()) {
+      if (!element.is_number() || element.number() != usual) return false;
+    }
+    return true;
   }
 
-  void add(std::string_view name, const Value& value) {
+  void add(std::string_view name, const ArgumentValue& value) {
     if (text_.back() != '(') text_ += ", ";
     if (!name.empty()) (text_ += name) += " = ";
     add_value(value);
   }
 
   /// Lists within lists are not written.
-  void add_value(const Value& value, bool is_element = false) {
-    switch (value.kind) {
+  void add_value(const ArgumentValue& value, bool is_element = false) {
+    switch (value.kind()) {
       case ValueKind::kUndef:
         text_ += "undef";
         break;
       case ValueKind::kBool:
-        text_ += value.boolean ? "true" : "false";
+        text_ += value.boolean() ? "true" : "false";
         break;
       case ValueKind::kNumber:
-        add_number(value.number);
+        add_number(value.number());
         break;
       case ValueKind::kString:
-        add_string(tree_.text_of(value));
+        add_string(value.text());
         break;
       case ValueKind::kList:
         if (is_element) {
           text_ += "[…]";
         } else {
-          add_list(tree_.elements_of(value));
+          add_list(value.elements());
         }
         break;
     }
@@ -157,7 +160,7 @@ class Writer {
     ((text_ += '"') += string.substr(0, length)) += length < string.size() ? "…\"" : "\"";
   }
 
-  void add_list(std::span<const Value> elements) {
+  void add_list(const ValueList& elements) {
     text_ += '[';
     for (std::size_t i = 0; i < elements.size(); ++i) {
       if (i > 0) text_ += ", ";
@@ -170,14 +173,14 @@ class Writer {
     text_ += ']';
   }
 
-  const SyntaxTree& tree_;
-  const SyntaxNode& node_;
+  const NodeTree& tree_;
+  const Node& node_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string label_of(const SyntaxTree& tree, const SyntaxNode& node) {
+std::string label_of(const NodeTree& tree, const Node& node) {
   return Writer(tree, node).label();
 }
 

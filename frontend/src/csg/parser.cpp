@@ -1,35 +1,28 @@
 #include "frontend/parser.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
+#include <vector>
 
-#include "base/name_table.hpp"
 #include "csg/lexer.hpp"
 #include "frontend/stop.hpp"
+#include "language/make.hpp"
 
 namespace frontend {
 namespace {
 
-constexpr NameTable kNodeTable(kNodeNames);
+using language::ArgumentName;
+using language::ArgumentStyle;
+using language::CallModifier;
+using language::NodeKind;
+using language::NodeTree;
+using language::Value;
 
-/// All argument names that OpenSCAD writes or that a primitive takes. They need no storage in the
-/// tree.
-constexpr NameTable kArgumentTable(std::to_array<std::string_view>({
-    "$fn",       "$fa",       "$fs",      "$fe",    "r",        "r1",      "r2",     "d",
-    "d1",        "d2",        "h",        "center", "size",     "points",  "faces",  "triangles",
-    "paths",     "convexity", "cut",      "delta",  "chamfer",  "newsize", "auto",   "height",
-    "twist",     "slices",    "scale",    "v",      "segments", "file",    "layer",  "origin",
-    "timestamp", "angle",     "start",    "dpi",    "id",       "invert",  "text",   "spacing",
-    "font",      "direction", "language", "script", "halign",   "valign",  "method", "m",
-    "c",         "alpha",     "radius",
-}));
-
-/// Means no node and no list: the end of a chain of indices.
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-
-/// The largest text. A node, argument, value or byte of a string takes at least one byte of text,
-/// so that no 32-bit count, index, line or column overflows, and none equals kNone.
-constexpr size_t kMaxTextBytes = kNone - 1;
+/// The largest text. A node, argument, number or byte of a string takes at least one byte of text,
+/// so that no 32-bit count, index, line or column overflows.
+constexpr size_t kMaxTextBytes = std::numeric_limits<uint32_t>::max() - 1;
 
 /// The deepest nesting of lists, far above any use: OpenSCAD nests them at most three deep. It
 /// keeps a damaged file of nothing but brackets from taking 16 bytes for each.
@@ -39,53 +32,54 @@ constexpr const char* kValueHint = "write a number, true, false, undef, a \"stri
 
 bool is_modifier(char c) { return c == '%' || c == '#' || c == '!' || c == '*'; }
 
-Modifier modifier_of(char c) {
+/// What has it is dropped: no CallModifier.
+constexpr uint8_t kDisabled = 0x80;
+
+uint8_t modifier_of(char c) {
   switch (c) {
     case '%':
-      return kBackground;
+      return CallModifier::kBackgroundModifier;
     case '#':
-      return kHighlight;
+      return CallModifier::kHighlightModifier;
     case '!':
-      return kRoot;
+      return CallModifier::kRootModifier;
     default:
-      return kDisable;
+      return kDisabled;
   }
 }
 
 /// Returns whether nodes of the kind have no children in any version.
 bool is_leaf(NodeKind kind) { return kind <= NodeKind::kText; }
 
-Value number_value(double number) {
-  Value value;
-  value.kind = ValueKind::kNumber;
-  value.number = number;
-  return value;
-}
-
 /// Parses undef, true, false, nan or inf into `value`; returns false for any other word.
 bool constant(std::string_view word, Value& value) {
   if (word == "true" || word == "false") {
-    value.kind = ValueKind::kBool;
-    value.boolean = word == "true";
+    value = Value::boolean(word == "true");
   } else if (word == "inf") {
-    value = number_value(std::numeric_limits<double>::infinity());
+    value = std::numeric_limits<double>::infinity();
   } else if (word == "nan") {
-    value = number_value(std::numeric_limits<double>::quiet_NaN());
-  } else if (word != "undef") {
+    value = std::numeric_limits<double>::quiet_NaN();
+  } else if (word == "undef") {
+    value = Value::undef();
+  } else {
     return false;
   }
   return true;
 }
 
-/// Builds the tree in one pass. Nesting is kept in vectors, not on the call stack. The `first` of
-/// an open list is its parent's index in lists_.
+Value list_of(std::span<const double> numbers) {
+  language::NumberWriter list(numbers.size());
+  for (const double number : numbers) list.put(number);
+  return list.take();
+}
+
+/// Builds the tree in one pass. Nesting is kept in vectors, not on the call stack.
 class Parser {
  public:
-  /// `tree` has a file name and nothing else.
-  Parser(std::string_view text, SyntaxTree& tree);
+  /// `tree` is empty.
+  Parser(std::string_view text, const std::string& file_name, NodeTree& tree)
+      : tree_(tree), text_(text.data()), lexer_(text, file_name) {}
   void run(const std::stop_token& stop);
-  /// Ends after the first node.
-  void run_one_node();
   const Lexer& lexer() const { return lexer_; }
 
  private:
@@ -97,58 +91,39 @@ class Parser {
   void arguments(NodeKind kind);
   void argument();
   void raw_text_argument();
-  Value value();
+  void add_value(ArgumentName name);
   Value scalar();
   Value list();
-  bool list_of_numbers(Value& list);
+  bool matrix();
+  bool list_of_numbers();
   Value string();
-  Value store(std::string_view text);
-  void give_names();
-  uint32_t open_list(uint32_t parent);
-  uint32_t close_list(uint32_t list);
+  void open_list();
+  void close_list();
   [[noreturn]] void fail_unclosed() const;
   [[noreturn]] void fail_value() const;
   [[noreturn]] void fail_word(const char* start, std::string_view word) const;
 
-  SyntaxTree& tree_;
+  NodeTree& tree_;
   const char* const text_;
   Lexer lexer_;
   struct OpenNode {
     uint32_t node;
     bool single_child;  // it is without braces
+    bool is_disabled;
   };
-  std::vector<OpenNode> open_;  // the innermost is the last
-  std::vector<Value> lists_;    // the open lists, each followed by its elements so far
-  uint32_t list_depth_ = 0;
-  struct StoredName {
-    uint32_t argument, first, count;
-  };
-  std::vector<StoredName> names_;  // names in tree_.strings, which still moves
+  std::vector<OpenNode> open_;     // the innermost is the last
+  std::vector<Value> elements_;    // of the open lists, so far, from outside in
+  std::vector<size_t> lists_;      // by open list: where its elements begin
+  std::vector<double> numbers_;    // of the last matrix() or list_of_numbers()
+  std::string string_;             // the last one, unescaped
 };
 
-Parser::Parser(std::string_view text, SyntaxTree& tree)
-    : tree_(tree), text_(text.data()), lexer_(text, tree.file_name) {
-  // These are about the averages of OpenSCAD's files, so that the vectors of most files never move.
-  // A vector that is not used in full costs addresses, not memory.
-  constexpr size_t kBytesPerNode = 48, kBytesPerArgument = 20, kBytesPerValue = 6;
-  tree_.nodes.reserve(text.size() / kBytesPerNode);
-  tree_.offsets.reserve(text.size() / kBytesPerNode);
-  tree_.arguments.reserve(text.size() / kBytesPerArgument);
-  tree_.values.reserve(text.size() / kBytesPerValue);
-}
-
 void Parser::run(const std::stop_token& stop) {
+  const language::UnboundedValues memory;
   do {
     throw_if_stopped(stop);
   } while (step());
   if (!open_.empty()) fail_unclosed();
-  give_names();
-}
-
-void Parser::run_one_node() {
-  while (step() && !open_.empty()) {
-  }
-  give_names();
 }
 
 /// Parses the next node up to its children, or an end. Returns false at the end of the text.
@@ -170,14 +145,6 @@ bool Parser::step() {
   return true;
 }
 
-/// Sets the argument names that are not in the table, once tree_.strings does not move any more.
-void Parser::give_names() {
-  for (const StoredName& name : names_) {
-    tree_.arguments[name.argument].name = {tree_.strings.data() + name.first, name.count};
-  }
-  names_.clear();
-}
-
 uint8_t Parser::modifiers() {
   uint8_t found = 0;
   for (lexer_.skip_space(); is_modifier(lexer_.peek()); lexer_.skip_space()) {
@@ -188,31 +155,27 @@ uint8_t Parser::modifiers() {
 }
 
 void Parser::node(uint8_t modifiers) {
-  SyntaxNode node;
-  tree_.offsets.push_back(static_cast<uint32_t>(lexer_.position() - text_));
-  node.location = lexer_.location();
-  node.kind = node_kind();
-  node.modifiers = modifiers;
-  node.first_argument = static_cast<uint32_t>(tree_.arguments.size());
-  arguments(node.kind);
-  node.argument_count = static_cast<uint32_t>(tree_.arguments.size()) - node.first_argument;
+  const auto offset = static_cast<uint32_t>(lexer_.position() - text_);
+  const NodeKind kind = node_kind();
+  const bool is_disabled = (modifiers & kDisabled) != 0;
+  const uint32_t node = tree_.open(kind, modifiers & ~kDisabled, {0, offset});
+  arguments(kind);
   lexer_.skip_space();
-  const bool single = !is_leaf(node.kind) && (lexer_.at_word() || is_modifier(lexer_.peek()));
-  open_.push_back({static_cast<uint32_t>(tree_.nodes.size()), single});
-  tree_.nodes.push_back(node);
+  const bool single = !is_leaf(kind) && (lexer_.at_word() || is_modifier(lexer_.peek()));
+  open_.push_back({node, single, is_disabled});
   if (lexer_.take(';')) {
     close_node();
   } else if (!single && !lexer_.take('{')) {
-    lexer_.fail_expected(is_leaf(node.kind) ? "';'" : "';' or '{'",
-                         "end the " + std::string(name_of(node.kind)) + " with ';'");
+    lexer_.fail_expected(is_leaf(kind) ? "';'" : "';' or '{'",
+                         "end the " + std::string(name_of(kind)) + " with ';'");
   }
 }
 
 NodeKind Parser::node_kind() {
   const char* const start = lexer_.position();
   const std::string_view name = lexer_.word();
-  const uint8_t found = kNodeTable.find(name);
-  if (found != kNodeTable.kNone) return static_cast<NodeKind>(found);
+  const uint8_t found = language::kNodeNames.find(name);
+  if (found != language::kNodeNames.kNone) return static_cast<NodeKind>(found);
   lexer_.fail(start, "unknown node " + quoted(name),
               "a .csg holds only what OpenSCAD exports, such as multmatrix, union, sphere; if this "
               "is a .scad, name it so");
@@ -220,7 +183,9 @@ NodeKind Parser::node_kind() {
 
 void Parser::close_node() {
   do {
-    tree_.nodes[open_.back().node].subtree_end = static_cast<uint32_t>(tree_.nodes.size());
+    const OpenNode& done = open_.back();
+    tree_.close(done.node);
+    if (done.is_disabled) tree_.remove(done.node);
     open_.pop_back();
   } while (!open_.empty() && open_.back().single_child);
 }
@@ -241,43 +206,40 @@ void Parser::arguments(NodeKind kind) {
 }
 
 void Parser::argument() {
-  Argument& argument = tree_.arguments.emplace_back();
-  if (!lexer_.at_word()) {
-    argument.value = value();
-    return;
-  }
+  if (!lexer_.at_word()) return add_value({});
   const char* const start = lexer_.position();
   const std::string_view word = lexer_.word();
   lexer_.skip_space();
   if (lexer_.take('=')) {
-    const uint8_t known = kArgumentTable.find(word);
-    if (known != kArgumentTable.kNone) {
-      argument.name = kArgumentTable[known];
-    } else {
-      const Value stored = store(word);
-      names_.push_back({static_cast<uint32_t>(tree_.arguments.size() - 1),
-                        static_cast<uint32_t>(stored.first), stored.count});
-    }
     lexer_.skip_space();
-    argument.value = value();
-  } else if (!constant(word, argument.value)) {
-    fail_word(start, word);
+    return add_value(ArgumentName::named(word));
   }
+  Value value;
+  if (!constant(word, value)) fail_word(start, word);
+  tree_.add({}, std::move(value), ArgumentStyle::kGeneral);
 }
 
 void Parser::raw_text_argument() {
   std::string_view text;
   if (!lexer_.raw_text(text)) return;
-  Argument& argument = tree_.arguments.emplace_back();
-  argument.name = "text";
-  argument.value = store(text);
+  tree_.add("text", language::make_string(text), ArgumentStyle::kRawString);
   lexer_.advance();  // past the comma
 }
 
-Value Parser::value() { return lexer_.peek() == '[' ? list() : scalar(); }
+/// Takes a value, and adds it to the last node.
+void Parser::add_value(ArgumentName name) {
+  if (lexer_.peek() != '[') return tree_.add(name, scalar(), ArgumentStyle::kGeneral);
+  if (matrix()) return tree_.add(name, numbers_, ArgumentStyle::kMatrix);
+  if (!list_of_numbers()) return tree_.add(name, list(), ArgumentStyle::kEcho);
+  if (numbers_.size() <= NodeTree::kMostNumbers) {
+    tree_.add(name, numbers_, ArgumentStyle::kGeneral);
+  } else {
+    tree_.add(name, list_of(numbers_), ArgumentStyle::kEcho);
+  }
+}
 
 Value Parser::scalar() {
-  if (lexer_.at_number()) return number_value(lexer_.number());
+  if (lexer_.at_number()) return lexer_.number();
   const char c = lexer_.peek();
   if (c == '"') return string();
   const char* const start = lexer_.position();
@@ -290,32 +252,30 @@ Value Parser::scalar() {
   }
   Value value;
   if (sign && lexer_.at_number()) {
-    value = number_value(lexer_.number());
+    value = lexer_.number();
   } else if (!lexer_.at_word()) {
     fail_value();
   } else if (const std::string_view word = lexer_.word();
-             !constant(word, value) || (sign && value.kind != ValueKind::kNumber)) {
+             !constant(word, value) || (sign && !value.is_number())) {
     fail_word(start, word);
   }
-  if (negative) value.number = -value.number;
-  return value;
+  return negative ? Value(-value.number()) : value;
 }
 
+/// Takes the list at the cursor.
 Value Parser::list() {
-  Value numbers;
-  if (list_of_numbers(numbers)) return numbers;
-  uint32_t open = open_list(kNone);
+  open_list();
   for (;;) {
     lexer_.skip_space();
     const char c = lexer_.peek();
     if (c == '[') {
-      if (!list_of_numbers(numbers)) {
-        open = open_list(open);
+      if (!list_of_numbers()) {
+        open_list();
         continue;
       }
-      lists_.push_back(numbers);
+      elements_.push_back(list_of(numbers_));
     } else if (c != ']') {
-      lists_.push_back(scalar());
+      elements_.push_back(scalar());
     }
     // A value, or the list after '[' or ',', is complete. Lists that end here are closed.
     for (;;) {
@@ -324,69 +284,79 @@ Value Parser::list() {
       if (!lexer_.take(']')) {
         lexer_.fail_expected("',' or ']'", "separate values by commas");
       }
-      open = close_list(open);
-      if (open == kNone) {
-        const Value whole = lists_.front();
-        lists_.clear();
+      close_list();
+      if (lists_.empty()) {
+        Value whole = std::move(elements_.back());
+        elements_.clear();
         return whole;
       }
     }
   }
 }
 
-/// Takes the list at the cursor if it contains nothing but plain numbers, spaced as by OpenSCAD:
-/// rows of matrices, points, faces. Returns false, and takes nothing, for any other list; at most
-/// its numbers before the first inner list are then parsed twice.
-bool Parser::list_of_numbers(Value& list) {
-  if (list_depth_ == kMaxListDepth) return false;
+/// Takes four lists of four plain numbers, spaced as by OpenSCAD, into `numbers_`. Returns false,
+/// and takes nothing, for any other list.
+bool Parser::matrix() {
+  constexpr size_t kRows = 4;
   const char* const start = lexer_.position();
-  std::vector<Value>& values = tree_.values;
-  const size_t first = values.size();
+  std::array<double, kRows * kRows> entries;
   lexer_.advance();
-  double number;
-  while (lexer_.plain_number(number)) {
-    values.push_back(number_value(number));
-    if (lexer_.take(']')) {
-      list.kind = ValueKind::kList;
-      list.first = first;
-      list.count = static_cast<uint32_t>(values.size() - first);
-      return true;
-    }
-    if (!lexer_.take(',')) break;
-    lexer_.take(' ');
+  for (size_t row = 0; row < kRows; ++row) {
+    if (row > 0 && !lexer_.take(',')) break;
+    if (row > 0) lexer_.take(' ');
+    if (lexer_.peek() != '[' || !list_of_numbers() || numbers_.size() != kRows) break;
+    std::copy(numbers_.begin(), numbers_.end(), entries.begin() + row * kRows);
+    if (row + 1 < kRows) continue;
+    if (!lexer_.take(']')) break;
+    numbers_.assign(entries.begin(), entries.end());
+    return true;
   }
-  values.resize(first);
   lexer_.go_back(start);
   return false;
 }
 
-uint32_t Parser::open_list(uint32_t parent) {
-  if (++list_depth_ > kMaxListDepth) {
+/// Takes the list at the cursor into `numbers_` if it contains nothing but plain numbers, spaced as
+/// by OpenSCAD: rows of matrices, points, faces. Returns false, and takes nothing, for any other
+/// list; at most its numbers before the first inner list are then parsed twice.
+bool Parser::list_of_numbers() {
+  const char* const start = lexer_.position();
+  numbers_.clear();
+  lexer_.advance();
+  double number;
+  while (lexer_.plain_number(number)) {
+    numbers_.push_back(number);
+    if (lexer_.take(']')) return true;
+    if (!lexer_.take(',')) break;
+    lexer_.take(' ');
+  }
+  lexer_.go_back(start);
+  return false;
+}
+
+void Parser::open_list() {
+  if (lists_.size() == kMaxListDepth) {
     lexer_.fail("lists are nested more than " + std::to_string(kMaxListDepth) + " deep",
                 "the file is damaged: export it again");
   }
-  Value& value = lists_.emplace_back();
-  value.kind = ValueKind::kList;
-  value.first = parent;
+  lists_.push_back(elements_.size());
   lexer_.advance();
-  return static_cast<uint32_t>(lists_.size() - 1);
 }
 
-uint32_t Parser::close_list(uint32_t list) {
-  --list_depth_;
-  Value& value = lists_[list];
-  const uint32_t parent = static_cast<uint32_t>(value.first);
-  value.first = tree_.values.size();
-  value.count = static_cast<uint32_t>(lists_.size()) - list - 1;
-  tree_.values.insert(tree_.values.end(), lists_.begin() + list + 1, lists_.end());
-  lists_.resize(list + 1);
-  return parent;
+/// The innermost list becomes an element of the one around it.
+void Parser::close_list() {
+  const size_t first = lists_.back();
+  Value list = language::make_vector(elements_.size() - first);
+  for (size_t i = first; i < elements_.size(); ++i) {
+    language::append_in_room(list, std::move(elements_[i]));
+  }
+  elements_.resize(first);
+  elements_.push_back(std::move(list));
+  lists_.pop_back();
 }
 
 Value Parser::string() {
   const std::string_view raw = lexer_.quoted_string();
-  Value value = store({});
-  std::vector<char>& strings = tree_.strings;
+  string_.clear();
   for (size_t i = 0; i < raw.size(); ++i) {
     char c = raw[i];
     if (c == '\\' && i + 1 < raw.size()) {
@@ -397,25 +367,16 @@ Value Parser::string() {
         ++i;
       }
     }
-    strings.push_back(c);
+    string_ += c;
   }
-  value.count = static_cast<uint32_t>(strings.size() - value.first);
-  return value;
-}
-
-Value Parser::store(std::string_view text) {
-  Value value;
-  value.kind = ValueKind::kString;
-  value.first = tree_.strings.size();
-  value.count = static_cast<uint32_t>(text.size());
-  tree_.strings.insert(tree_.strings.end(), text.begin(), text.end());
-  return value;
+  return language::make_string(string_);
 }
 
 void Parser::fail_unclosed() const {
-  const SyntaxNode& node = tree_.nodes[open_.back().node];
+  const language::Node& node = tree_.nodes[open_.back().node];
+  const auto line = 1 + std::count(text_, text_ + node.place.offset, '\n');
   lexer_.fail("the '{' of the " + std::string(name_of(node.kind)) + " in line " +
-                  std::to_string(node.location.line) + " is not closed",
+                  std::to_string(line) + " is not closed",
               "add a '}'; if the file is cut off, export it again");
 }
 
@@ -426,6 +387,12 @@ void Parser::fail_word(const char* start, std::string_view word) const {
   lexer_.fail(start, "no value is called " + quoted(word), kValueHint);
 }
 
+/// Returns the text behind the byte order mark that it may begin with.
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
+
 void check_size(std::string_view text, const std::string& file_name) {
   if (text.size() <= kMaxTextBytes) return;
   throw Error(file_name, {}, "the file has " + std::to_string(text.size()) + " bytes",
@@ -434,29 +401,34 @@ void check_size(std::string_view text, const std::string& file_name) {
 
 }  // namespace
 
-SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop) {
-  SyntaxTree tree;
-  tree.file_name = std::move(file_name);
-  check_size(text, tree.file_name);
-  Parser(text, tree).run(stop);
-  return tree;
+DesignTree parse(const FileText& text, std::string name, std::string path,
+                 const std::stop_token& stop) {
+  check_size(text.view(), name);
+  auto tree = std::make_shared<NodeTree>();
+  tree->has_all_digits = false;
+  const std::string_view view = without_mark(text.view());
+  Parser(view, name, *tree).run(stop);
+  auto files = std::make_shared<language::SourceFiles>();
+  const std::shared_ptr<const char[]> bytes(text.bytes(), view.data());
+  files->add(0, std::make_shared<language::SourceFile>(std::move(path), bytes, view.size()));
+  return {std::move(tree), std::move(files), std::move(name)};
+}
+
+DesignTree parse(std::string_view text, std::string name) {
+  check_size(text, name);
+  return parse(FileText(text), std::move(name));
 }
 
 bool is_beyond_repair(std::string_view start, const std::stop_token& stop) {
-  SyntaxTree tree;
-  Parser parser(start, tree);
+  NodeTree tree;
+  const std::string no_name;
+  Parser parser(without_mark(start), no_name, tree);
   try {
     parser.run(stop);
   } catch (const Error&) {
     return !parser.lexer().may_be_cut_off();
   }
   return false;
-}
-
-SyntaxTree parse_subtree(std::string_view text, uint32_t offset) {
-  SyntaxTree tree;
-  Parser(text.substr(offset), tree).run_one_node();
-  return tree;
 }
 
 }  // namespace frontend

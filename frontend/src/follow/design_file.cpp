@@ -12,7 +12,6 @@
 #include <system_error>
 
 #include "base/elapsed.hpp"
-#include "csg/evaluated_tree.hpp"
 #include "follow/evaluated_design.hpp"
 #include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
@@ -31,7 +30,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   DesignText text = read_design_text(path, options);
   options.progress("parsing");
   const Clock::time_point parse_start = Clock::now();
-  DesignFile design{.tree = parse_design(text)};
+  DesignFile design{.tree = tree_of(text)};
   design.name = input_name(path);
   design.parse_ms = ms_since(parse_start);
   if (text.is_exported && options.wants_files && text.files.empty()) {
@@ -47,6 +46,14 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   if (text.evaluation) design.camera = camera_of(*text.evaluation);
   if (options.wants_text) design.text = std::move(text);
   return design;
+}
+
+/// Returns the absolute path of a file; nothing of the standard input.
+std::string absolute_path(const std::string& path) {
+  if (path == "-") return {};
+  std::error_code failed;  // the working folder is gone
+  const std::filesystem::path absolute = std::filesystem::absolute(path, failed);
+  return failed ? std::string() : absolute.lexically_normal().string();
 }
 
 /// Assigns $t, exact to the last bit.
@@ -100,7 +107,7 @@ bool is_csg(const std::string& path, const DesignFileOptions& options, DesignTex
                   [](const std::string& word) { return word != "--hardwarnings"; });
   if (has_options || !text.scad) return !has_options;
   try {
-    text.tree = parse(text.scad->view(), text.name, stop);
+    text.tree = parse(*text.scad, text.name, text.csg_path, stop);
     return true;
   } catch (const Error&) {
     return false;
@@ -236,6 +243,7 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
   DesignText text;
   const Clock::time_point start = Clock::now();
   text.name = input_name(path);
+  text.csg_path = absolute_path(path);
   text.scad = options.text ? options.text : text_in_memory(path, stop);
   if (!is_csg(path, options, text, stop)) {
     if (!text.scad) check_input(path);
@@ -253,19 +261,14 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
   return within_memory(path, [&] { return read_and_parse(path, options); });
 }
 
-SyntaxTree parse_design(DesignText& text, const std::stop_token& stop) {
-  if (text.tree) return *std::exchange(text.tree, std::nullopt);
-  return parse_design(text.csg, text.evaluation.get(), text.name, stop);
+DesignTree tree_of(const DesignText& text, const std::stop_token& stop) {
+  if (text.tree) return *text.tree;
+  if (text.evaluation) return tree_of(*text.evaluation, text.name);
+  return parse(text.csg, text.name, text.is_exported ? "" : text.csg_path, stop);
 }
 
-SyntaxTree parse_design(const FileText& csg, const language::Evaluation* evaluation,
-                        const std::string& name, const std::stop_token& stop) {
-  if (evaluation == nullptr) return parse(csg.view(), name, stop);
-  return tree_of(*evaluation->tree, *evaluation->files, name);
-}
-
-ImportedDesign import_design(DesignFile& file) {
-  return within_memory(file.name, [&] { return import_design(std::move(file.tree), file.import); });
+ImportedDesign import_design(const DesignFile& file) {
+  return within_memory(file.name, [&] { return import_design(file.tree, file.import); });
 }
 
 }  // namespace frontend

@@ -37,50 +37,39 @@ DesignMessageSink keeping_messages(DesignVersion& version) {
 }
 
 /// Returns whether the design is, byte for byte or node for node, that of a version.
-bool is_same(const DesignTexts& before, const DesignText& now) {
+bool is_same(const DesignSource& before, const DesignText& now) {
   if ((before.evaluation == nullptr) != (now.evaluation == nullptr)) return false;
-  if (!now.evaluation) return before.csg->view() == now.csg.view();
-  return language::are_same(*before.evaluation->tree, *now.evaluation->tree);
+  if (!now.evaluation) return (*before.tree.files)[0].text == now.csg.view();
+  return language::are_same(*before.tree.nodes, *now.evaluation->tree);
 }
 
 /// Returns nothing if the text is that of the version before, and neither names files nor has text,
 /// whose fonts may have changed.
-std::optional<SyntaxTree> parse_text(DesignText& text, DesignReading& reading,
+std::optional<DesignTree> parse_text(const DesignText& text, DesignReading& reading,
                                      const std::stop_token& stop) {
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
-                              before->lines_to_render.empty() && is_same(reading.good.texts, text);
+                              before->lines_to_render.empty() && is_same(reading.good.source, text);
   if (reading.version.unchanged) {
-    if (text.evaluation) reading.good.texts.evaluation = text.evaluation;  // the text may differ
+    if (text.evaluation) {  // whose texts may differ
+      reading.good.source = {tree_of(text, stop), text.evaluation};
+    }
     return std::nullopt;
   }
   const Clock::time_point start = Clock::now();
-  SyntaxTree tree = parse_design(text, stop);
+  DesignTree tree = tree_of(text, stop);
   reading.version.parse_ms = ms_since(start);
   return tree;
 }
 
-/// Returns the path of the file that a text was read from, unless a program has made the text.
-std::string csg_path(const std::string& path, const DesignText& text) {
-  if (text.is_exported || path == "-") return {};
-  std::error_code failed;  // the working folder is gone
-  const std::filesystem::path absolute = std::filesystem::absolute(path, failed);
-  return failed ? std::string() : absolute.lexically_normal().string();
-}
-
-void import_into(DesignReading& reading, SyntaxTree tree, const std::string& path,
-                 const ImportOptions& options, DesignText& text, const std::stop_token& stop) {
+void import_into(DesignReading& reading, DesignTree tree, const ImportOptions& options,
+                 const DesignText& text, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
-  const std::size_t nodes = tree.nodes.size();
-  auto design =
-      std::make_shared<const ImportedDesign>(import_design(std::move(tree), options, stop));
+  auto design = std::make_shared<const ImportedDesign>(import_design(tree, options, stop));
   reading.version.import_ms = ms_since(start) - design->rendering_ms;
   GoodVersion& good = reading.good;
-  good.texts = {std::make_shared<const FileText>(std::move(text.csg)), csg_path(path, text),
-                text.evaluation};
+  good.source = {std::move(tree), text.evaluation};
   good.design = std::move(design);
-  good.nodes = nodes;
-  good.text_name = text.name;
   good.is_exported = text.is_exported;
 }
 
@@ -102,11 +91,10 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     reading.watched = std::move(paths);
   };
   DesignText text = read_design_text(path, file_options, stop);
-  std::optional<SyntaxTree> tree = parse_text(text, reading, stop);
+  std::optional<DesignTree> tree = parse_text(text, reading, stop);
   file_options.progress("importing");
   if (tree) {
-    import_into(reading, std::move(*tree), path, beside(path, text, file_options.import), text,
-                stop);
+    import_into(reading, std::move(*tree), beside(path, text, file_options.import), text, stop);
   }
   reading.good.lacks_files = text.evaluation && text.evaluation->has_unparsed_files;
   if (text.evaluation) version.camera = camera_of(*text.evaluation);
@@ -115,8 +103,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   version.files = std::move(text.files);
   version.design = reading.good.design;
   add_imported_files(*version.design, version.files);
-  version.texts = reading.good.texts;
-  version.nodes = reading.good.nodes;
+  version.source = reading.good.source;
   for (const Warning& warning : version.design->warnings) {
     version.messages.push_back(warning.text);
   }
@@ -166,15 +153,12 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   version.places.resize(std::min(version.places.size(), version.messages.size()));
   DesignText text;
   text.is_exported = reading.good.is_exported;
-  text.evaluation = reading.good.texts.evaluation;
+  text.evaluation = reading.good.source.evaluation;
   text.files = version.files;
   ImportOptions import_options = beside(path, text, options.import);
   import_options.rendering.is_in_background = true;
-  const GoodVersion& good = reading.good;
-  SyntaxTree tree =
-      parse_design(*good.texts.csg, good.texts.evaluation.get(), good.text_name, stop);
-  reading.good.design =
-      std::make_shared<const ImportedDesign>(import_design(std::move(tree), import_options, stop));
+  reading.good.design = std::make_shared<const ImportedDesign>(
+      import_design(reading.good.source.tree, import_options, stop));
   version.design = reading.good.design;
   version.unchanged = false;
   for (const Warning& warning : version.design->warnings) {

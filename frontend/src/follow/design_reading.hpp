@@ -14,10 +14,8 @@ namespace frontend {
 
 /// The last version that could be read; null, empty and 0 before there is one.
 struct GoodVersion {
-  DesignTexts texts;
+  DesignSource source;
   std::shared_ptr<const ImportedDesign> design;
-  std::size_t nodes = 0;
-  std::string text_name;     // of the text, for messages
   bool is_exported = false;  // openscad made the text
   bool lacks_files = false;  // a used file has a syntax error
   std::shared_ptr<const DesignParameters> parameters;

@@ -5,16 +5,10 @@
 #include <string_view>
 #include <utility>
 
-#include "csg/evaluated_tree.hpp"
 #include "csg/node_label.hpp"
-#include "csg/node_path.hpp"
-#include "frontend/parser.hpp"
-#include "language/evaluation.hpp"
 
 namespace frontend {
 namespace {
-
-using language::NodeTree;
 
 /// The most bytes of a call that are shown.
 constexpr std::size_t kLongestCall = 40;
@@ -46,40 +40,23 @@ std::string call_text(std::string_view text) {
 
 bool has_children(const NodeTree& tree, uint32_t node) { return tree.nodes[node].end > node + 1; }
 
-class TrailBuilder {
- public:
-  TrailBuilder(const NodeTree& tree, const language::SourceFiles& files)
-      : tree_(tree), files_(files) {}
-
-  /// `path` leads to the leaf, and may lead on to what is in it.
-  LeafPlace place(const std::vector<uint32_t>& path, uint32_t leaf) const {
-    LeafPlace result;
-    for (auto step = path.rbegin(); step != path.rend(); ++step) {
-      const language::Node& node = tree_.nodes[*step];
-      if (*step == leaf) result.leaf = result.trail.size();
-      if (*step == leaf || !has_children(tree_, *step)) {
-        const SyntaxTree alone = tree_without_children(tree_, *step, files_);
-        result.trail.push_back(
-            {label_of(alone, alone.nodes.front()), source_place(files_, node.place)});
-      } else if (node.is_module_call) {
-        const std::string_view text = files_[node.place.file].text;
-        result.trail.push_back(
-            {call_text(text.substr(node.place.offset)), source_place(files_, node.place)});
-      }
-    }
-    return result;
+/// Returns the indices of the nodes from one at the design's top to `node`, which is the last.
+std::vector<uint32_t> path_to(const NodeTree& tree, uint32_t node) {
+  std::vector<uint32_t> path;
+  for (uint32_t i = 0; i <= node;) {
+    const uint32_t end = tree.nodes[i].end;
+    const bool is_around = end > node;
+    if (is_around) path.push_back(i);
+    i = is_around ? i + 1 : end;
   }
-
- private:
-  const NodeTree& tree_;
-  const language::SourceFiles& files_;
-};
+  return path;
+}
 
 /// Returns the only child that may make anything; nothing if there is none or there are several.
 std::optional<uint32_t> only_child(const NodeTree& tree, uint32_t node) {
   std::optional<uint32_t> only;
   for (uint32_t child = node + 1; child < tree.nodes[node].end; child = tree.nodes[child].end) {
-    if (!has_children(tree, child) && tree.nodes[child].name == "group") continue;
+    if (!has_children(tree, child) && tree.nodes[child].kind == NodeKind::kGroup) continue;
     if (only) return std::nullopt;
     only = child;
   }
@@ -88,19 +65,25 @@ std::optional<uint32_t> only_child(const NodeTree& tree, uint32_t node) {
 
 }  // namespace
 
-LeafPlace leaf_place(const DesignTexts& texts, const PrimitivePlace& place) {
-  if (!texts.evaluation) {
-    const SyntaxTree tree = parse_subtree(texts.csg->view(), place.offset);
-    return {{{label_of(tree, tree.nodes.front()),
-              source_place(texts.csg_path, place.line, texts.csg->view(), place.offset)}},
-            0};
-  }
-  const NodeTree& tree = *texts.evaluation->tree;
-  std::vector<uint32_t> path = path_to(tree, place.node);
-  const uint32_t leaf = path.back();
+LeafPlace leaf_place(const DesignTree& design, uint32_t leaf) {
+  const NodeTree& tree = *design.nodes;
+  const language::SourceFiles& files = *design.files;
+  std::vector<uint32_t> path = path_to(tree, leaf);
   while (const std::optional<uint32_t> child = only_child(tree, path.back()))
     path.push_back(*child);
-  return TrailBuilder(tree, *texts.evaluation->files).place(path, leaf);
+  LeafPlace result;
+  for (auto step = path.rbegin(); step != path.rend(); ++step) {
+    const Node& node = tree.nodes[*step];
+    if (*step == leaf) result.leaf = result.trail.size();
+    if (*step == leaf || !has_children(tree, *step)) {
+      result.trail.push_back({label_of(tree, node), source_place(files, node.place)});
+    } else if (node.is_module_call) {
+      const std::string_view text = files[node.place.file].text;
+      result.trail.push_back(
+          {call_text(text.substr(node.place.offset)), source_place(files, node.place)});
+    }
+  }
+  return result;
 }
 
 }  // namespace frontend

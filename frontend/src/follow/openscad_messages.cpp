@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "csg/evaluated_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "frontend/files.hpp"
 
 namespace frontend {

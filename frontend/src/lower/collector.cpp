@@ -75,7 +75,7 @@ Fit fit_of(const Primitive& primitive) {
 
 /// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes"). `file` is empty where
 /// the node lists the faces.
-void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
+void note_open_mesh(const Node& node, const csgcore::TriangleMesh& mesh,
                     const std::string& file, NodeProblems& problems) {
   const uint64_t edges = mesh.open_edges();
   problems.add(node,
@@ -86,7 +86,7 @@ void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
 }
 
 /// OpenSCAD shows the faces of a closed body that has no volume.
-void note_sheet(const SyntaxNode& node, const std::string& file, NodeProblems& problems) {
+void note_sheet(const Node& node, const std::string& file, NodeProblems& problems) {
   problems.add(node, {(file.empty() ? "" : ": '" + file + "'") + " has no volume",
                       "it is drawn as a thin sheet, and cuts nothing"});
 }
@@ -109,7 +109,7 @@ FaceSet flat_faces_of(const Primitive& primitive) {
 }
 
 /// A part of a final render that has another dimension than the first one.
-void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) {
+void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
   problems.add(node, {dimension == 2 ? ": Ignoring 2D child object for 3D operation"
                                      : ": Ignoring 3D child object for 2D operation",
                       "Mixing 2D and 3D objects is not supported: the first part is kept"});
@@ -117,11 +117,12 @@ void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) 
 
 }  // namespace
 
-Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
+Collector::Collector(const DesignTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
       files(options.folder, polyhedra),
       fonts(options.font_files),
-      tree_(tree),
+      design_(tree),
+      tree_(*tree.nodes),
       options_(options),
       hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
@@ -131,10 +132,8 @@ void Collector::collect(const std::stop_token& stop) {
   survey();
   for (uint32_t i = selected.begin; i < selected.end;) {
     throw_if_stopped(stop);
-    const SyntaxNode& node = tree_.nodes[i];
     while (contexts_.size() > 1 && !is_within(i, contexts_.back().node)) contexts_.pop_back();
-    const bool goes_on = (node.modifiers & kDisable) == 0 && visit(i);
-    i = goes_on ? i + 1 : node.subtree_end;
+    i = visit(i) ? i + 1 : tree_.nodes[i].end;
   }
 }
 
@@ -144,24 +143,21 @@ void Collector::survey() {
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
   ids_.reserve(count + 1);
   size_t solids = 0, matrices = 0;
-  std::optional<uint32_t> root;
-  uint32_t disabled_end = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    const SyntaxNode& node = tree_.nodes[i];
+    const Node& node = tree_.nodes[i];
     ids_.push_back(primitive_nodes);
     if (has_place(tree_, node)) {
       ++primitive_nodes;
-      if (options_.keeps_places) places.push_back(place_of(i));
+      if (options_.keeps_places) places.push_back(i);
     }
     solids += role_of(node.kind) == Role::kSolid;
     matrices += node.kind == NodeKind::kMultmatrix;
-    if (i >= disabled_end && (node.modifiers & kDisable) != 0) disabled_end = node.subtree_end;
-    if (i >= disabled_end && !root && (node.modifiers & kRoot) != 0) root = i;
   }
   ids_.push_back(primitive_nodes);
-  selected = root ? NodeRange{*root, tree_.nodes[*root].subtree_end} : NodeRange{0, count};
+  const std::optional<uint32_t> root = language::root_modifiers(tree_).shown;
+  selected = root ? NodeRange{*root, tree_.nodes[*root].end, true} : NodeRange{0, count};
   for (uint32_t i = selected.begin; i < selected.end && !any_modifiers; ++i) {
-    any_modifiers = tree_.nodes[i].modifiers != 0;
+    any_modifiers = modifiers_of(tree_, selected, i) != 0;
   }
   primitive_of.assign(count, kNoPrimitive);
   primitives.reserve(solids);
@@ -186,9 +182,11 @@ const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
 
 /// False: the children do not matter, or are taken already.
 bool Collector::visit(uint32_t index) {
-  const SyntaxNode& node = tree_.nodes[index];
+  const Node& node = tree_.nodes[index];
   if (is_of_either_dimension(index) && add_if_plane(index)) return false;
-  if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
+  if (contexts_.back().in_leaf && (node.modifiers & language::kBackgroundModifier) != 0) {
+    leave_leaf(index);
+  }
   switch (names_drawing(tree_, node) ? Role::kPlane : role_of(node.kind)) {
     case Role::kSolid:
       add_solid(index);
@@ -263,7 +261,7 @@ void Collector::leave_leaf(uint32_t node) {
 /// it is made of. False: it is the empty set, or left out.
 bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets,
                            const SolidOfFaces*& faces) {
-  const SyntaxNode& node = tree_.nodes[index];
+  const Node& node = tree_.nodes[index];
   const Affine& to_world = frames[contexts_.back().frame].to_world;
   if (node.kind == NodeKind::kCube) {
     primitive = polyhedra.box(read_cube(tree_, node, problems), to_world);
@@ -309,18 +307,13 @@ const SolidOfFaces* Collector::read_faces(uint32_t index) {
 
 /// The solid of an import or a surface, and the name of its file; null if there is none.
 const SolidOfFaces* Collector::read_file(uint32_t index, std::string& name) {
-  const SyntaxNode& node = tree_.nodes[index];
+  const Node& node = tree_.nodes[index];
   const FileArguments arguments = read_file_arguments(tree_, node, problems);
   const ImportedFile& file =
       node.kind == NodeKind::kSurface ? files.surface(arguments) : files.import(arguments);
   if (!file.problem.empty()) problems.add(node, {": " + file.problem, file.todo});
   name = arguments.file;
   return file.solid;
-}
-
-PrimitivePlace Collector::place_of(uint32_t node) const {
-  const Location location = tree_.nodes[node].location;
-  return {node, location.line, tree_.offsets[node], location.file};
 }
 
 void Collector::add_solid(uint32_t index) {
@@ -428,14 +421,12 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
 
 PlaneSubtree Collector::read_plane(uint32_t root) {
   PlaneSubtree subtree(tree_, root);
-  for (uint32_t i = root; i < tree_.nodes[root].subtree_end;) {
-    const bool is_disabled = i != root && (tree_.nodes[i].modifiers & kDisable) != 0;
-    if (!is_disabled) subtree.take(i, ids_[i], options_, {fonts, files}, problems);
-    i = is_disabled ? tree_.nodes[i].subtree_end : i + 1;
+  for (uint32_t i = root; i < tree_.nodes[root].end; ++i) {
+    subtree.take(i, ids_[i], options_, {fonts, files}, problems);
   }
   // The leaf's primitives have the id of its first primitive node.
-  const bool has_id = ids_[tree_.nodes[root].subtree_end] > ids_[root];
-  if (options_.keeps_places && has_id) places[ids_[root]] = place_of(root);
+  const bool has_id = ids_[tree_.nodes[root].end] > ids_[root];
+  if (options_.keeps_places && has_id) places[ids_[root]] = root;
   return subtree;
 }
 
@@ -465,17 +456,18 @@ bool Collector::is_of_either_dimension(uint32_t node) {
     return is_leaf_of_either(tree_.nodes[node].kind) && !contexts_.back().in_leaf;
   }
   if (node < top_node_end_) return false;
-  top_node_end_ = tree_.nodes[node].subtree_end;
+  top_node_end_ = tree_.nodes[node].end;
   return true;
 }
 
 int Collector::dimension_of(uint32_t root) const {
-  for (uint32_t i = root; i < tree_.nodes[root].subtree_end;) {
-    const SyntaxNode& node = tree_.nodes[i];
+  for (uint32_t i = root; i < tree_.nodes[root].end;) {
+    const Node& node = tree_.nodes[i];
     const bool is_drawing = names_drawing(tree_, node);
     const bool is_known = role_of(node.kind) != Role::kUnsupportedOperation;
-    if ((node.modifiers & (kDisable | kBackground)) != 0 || !is_known) {
-      i = node.subtree_end;
+    const bool is_background = (modifiers_of(tree_, selected, i) & language::kBackgroundModifier) != 0;
+    if (is_background || !is_known) {
+      i = node.end;
       continue;
     }
     if (is_extrusion(node.kind)) return 3;
@@ -597,6 +589,7 @@ bool Collector::asks_for(const PlaneSubtree& subtree) const {
 Presence Collector::ask_for(uint32_t root, bool is_plane, std::string_view why,
                             const Context& context) {
   RenderRequest request = render_request(tree_, root, is_plane, options_, fonts.files());
+  request.line = design_.location_of(tree_.nodes[root].place).line;
   pending_.push_back({root,
                       context.frame,
                       frames[context.frame].to_world,

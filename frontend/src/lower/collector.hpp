@@ -33,7 +33,7 @@ namespace frontend {
 class Collector {
  public:
   /// Keeps references to both arguments.
-  Collector(const SyntaxTree& tree, const ImportOptions& options);
+  Collector(const DesignTree& tree, const ImportOptions& options);
 
   /// Takes all nodes, whose arguments are not looked at after that. Throws if it is stopped
   /// (throw_if_stopped).
@@ -53,7 +53,7 @@ class Collector {
   FrameTree frames;
   NodeProblems problems;
   uint32_t primitive_nodes = 0;
-  std::vector<PrimitivePlace> places;  // by primitive node, where the options want them
+  std::vector<uint32_t> places;  // by primitive node, where the options want them: the leaf
   bool any_modifiers = false;          // of the nodes that are drawn
   /// The compound leaves (leaves.hpp) that are drawn, in file order, each with its frame.
   struct CompoundLeaf {
@@ -100,9 +100,9 @@ class Collector {
   };
 
   bool is_within(uint32_t node, uint32_t ancestor) const {
-    return node < tree_.nodes[ancestor].subtree_end;
+    return node < tree_.nodes[ancestor].end;
   }
-  bool has_children(uint32_t node) const { return tree_.nodes[node].subtree_end > node + 1; }
+  bool has_children(uint32_t node) const { return tree_.nodes[node].end > node + 1; }
   void survey();
   bool visit(uint32_t node);
   void leave_out(uint32_t node, const std::string& why);
@@ -118,7 +118,6 @@ class Collector {
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);
-  PrimitivePlace place_of(uint32_t node) const;
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   const SolidOfFaces*& faces);
   void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
@@ -158,7 +157,8 @@ class Collector {
   const SolidOfFaces* read_faces(uint32_t node);
   const SolidOfFaces* read_file(uint32_t node, std::string& name);
 
-  const SyntaxTree& tree_;
+  const DesignTree& design_;
+  const NodeTree& tree_;
   const ImportOptions& options_;
   std::vector<Context> contexts_;
   /// By node, and behind the last one: how many primitive nodes stand before it.

@@ -20,7 +20,7 @@ using csgcore::Vec3;
 enum RoundArgument : uint8_t { kR, kR1, kR2, kD, kD1, kD2, kH, kFn, kFa, kFs, kCount, kCenter };
 
 struct RoundName {
-  std::string_view name;
+  language::ArgumentName name;
   RoundArgument argument;
 };
 // In the order in which OpenSCAD writes them: the search ends soonest.
@@ -52,38 +52,38 @@ struct RoundArguments {
   }
 };
 
-RoundArgument argument_of(std::string_view name) {
+RoundArgument argument_of(language::ArgumentName name) {
   for (const RoundName& known : kRoundNames) {
     if (known.name == name) return known.argument;
   }
   return kCount;
 }
 
-RoundArguments read_round_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+RoundArguments read_round_arguments(const NodeTree& tree, const Node& node,
                                     std::span<const RoundArgument> positions,
                                     NodeProblems& problems) {
   RoundArguments result;
   size_t position = 0;
-  for (const Argument& argument : tree.arguments_of(node)) {
+  for (const language::NodeArgument& argument : tree.arguments_of(node)) {
     RoundArgument which = kCount;
-    if (!argument.name.empty()) {
+    if (!argument.name.is_positional()) {
       which = argument_of(argument.name);
     } else if (position < positions.size()) {
       which = positions[position++];
     }
-    const Value& value = argument.value;
-    if (which == kCount || value.kind == ValueKind::kUndef) continue;
+    const ArgumentValue value(tree, argument);
+    if (which == kCount || value.is_undef()) continue;
     if (which == kCenter) {
       result.center = read_center(node, value, problems);
       continue;
     }
-    if (value.kind != ValueKind::kNumber) {
+    if (!value.is_number()) {
       const auto known = std::find_if(kRoundNames.begin(), kRoundNames.end(),
                                       [&](const RoundName& n) { return n.argument == which; });
-      note_wrong_type(problems, node, known->name, value, "a number");
+      note_wrong_type(problems, node, known->name.text(), value, "a number");
       continue;
     }
-    result.numbers[which] = value.number;
+    result.numbers[which] = value.number();
     result.given |= 1u << which;
   }
   return result;
@@ -100,30 +100,30 @@ csgcore::Primitive cylinder_of(const RoundArguments& arguments) {
 }
 
 /// A list of `fewest` to three numbers; those that are not there are 0.
-std::optional<Vec3> vector_of(const SyntaxTree& tree, const Value& list, size_t fewest) {
-  if (list.kind != ValueKind::kList) return std::nullopt;
-  const std::span<const Value> numbers = tree.elements_of(list);
+std::optional<Vec3> vector_of(const ArgumentValue& list, size_t fewest) {
+  if (!list.is_list()) return std::nullopt;
+  const ValueList numbers = list.elements();
   if (numbers.size() < fewest || numbers.size() > 3) return std::nullopt;
   Vec3 result(0.0);
   for (size_t i = 0; i < numbers.size(); ++i) {
-    if (numbers[i].kind != ValueKind::kNumber) return std::nullopt;
-    result[static_cast<int>(i)] = numbers[i].number;
+    if (!numbers[i].is_number()) return std::nullopt;
+    result[static_cast<int>(i)] = numbers[i].number();
   }
   return result;
 }
 
 /// A value as OpenSCAD writes it, but for what is long: strings, long lists and lists in lists.
-std::string text_of(const SyntaxTree& tree, const Value& value, bool is_inner = false) {
+std::string text_of(const ArgumentValue& value, bool is_inner = false) {
   constexpr size_t kMostElements = 8, kLongestString = 40;
-  if (value.kind == ValueKind::kString) {
-    return '"' + std::string(tree.text_of(value).substr(0, kLongestString)) + '"';
+  if (value.is_string()) {
+    return '"' + std::string(value.text().substr(0, kLongestString)) + '"';
   }
-  if (value.kind != ValueKind::kList) return scalar_text(value);
-  const std::span<const Value> elements = tree.elements_of(value);
+  if (!value.is_list()) return scalar_text(value);
+  const ValueList elements = value.elements();
   if (is_inner && !elements.empty()) return "[...]";
   std::string text = "[";
   for (size_t i = 0; i < std::min(elements.size(), kMostElements); ++i) {
-    text += (i > 0 ? ", " : "") + text_of(tree, elements[i], true);
+    text += (i > 0 ? ", " : "") + text_of(elements[i], true);
   }
   return text + (elements.size() > kMostElements ? ", ...]" : "]");
 }
@@ -154,7 +154,7 @@ std::optional<csgcore::Color> color_of_channels(const std::array<double, 4>& cha
 
 }  // namespace
 
-RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& node,
+RoundPrimitive read_round_primitive(const NodeTree& tree, const Node& node,
                                     NodeProblems& problems) {
   const bool is_sphere = node.kind != NodeKind::kCylinder;
   const std::span<const RoundArgument> positions =
@@ -170,21 +170,21 @@ RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& no
   return result;
 }
 
-csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+csgcore::Box read_cube(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   Vec3 size(1.0);
-  const Value* given = find_argument(tree, node, "size", 0);
-  if (given != nullptr && given->kind == ValueKind::kNumber) {
-    size = Vec3(given->number);
-  } else if (given != nullptr && given->kind != ValueKind::kUndef) {
-    if (const std::optional<Vec3> vector = vector_of(tree, *given, 3)) {
+  const ArgumentValue given = find_argument(tree, node, "size", 0);
+  if (given.is_number()) {
+    size = Vec3(given.number());
+  } else if (!given.is_undef()) {
+    if (const std::optional<Vec3> vector = vector_of(given, 3)) {
       size = *vector;
     } else {
-      note_wrong(problems, node, "size", text_of(tree, *given), kMissing,
+      note_wrong(problems, node, "size", text_of(given), kMissing,
                  "a number or a list of three numbers");
     }
   }
-  const Value* center = find_argument(tree, node, "center", 1);
-  const bool is_centered = center != nullptr && read_center(node, *center, problems);
+  const ArgumentValue center = find_argument(tree, node, "center", 1);
+  const bool is_centered = read_center(node, center, problems);
   const Vec3 min = is_centered ? -size / 2.0 : Vec3(0.0);
   return {min, is_centered ? size / 2.0 : size};
 }
@@ -192,12 +192,12 @@ csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 namespace {
 
 /// The points of the values, nan where a value is none.
-std::vector<Vec3> points_of(const SyntaxTree& tree, std::span<const Value> values) {
+std::vector<Vec3> points_of(const ValueList& values) {
   std::vector<Vec3> points;
   points.reserve(values.size());
-  for (const Value& value : values) {
+  for (const ArgumentValue value : values) {
     points.push_back(
-        vector_of(tree, value, 2).value_or(Vec3(std::numeric_limits<double>::quiet_NaN())));
+        vector_of(value, 2).value_or(Vec3(std::numeric_limits<double>::quiet_NaN())));
   }
   return points;
 }
@@ -205,23 +205,22 @@ std::vector<Vec3> points_of(const SyntaxTree& tree, std::span<const Value> value
 /// Reads the faces of a polyhedron one by one.
 class FaceReader {
  public:
-  FaceReader(const SyntaxTree& tree, const SyntaxNode& node, std::span<const Value> points,
-             NodeProblems& problems)
-      : tree_(tree), node_(node), points_(points), problems_(problems) {
-    faces_.points = points_of(tree, points);
+  FaceReader(const Node& node, const ValueList& points, NodeProblems& problems)
+      : node_(node), points_(points), problems_(problems) {
+    faces_.points = points_of(points);
   }
 
-  FaceSet read(std::span<const Value> faces) {
+  FaceSet read(const ValueList& faces) {
     faces_.ends.reserve(faces.size());
     faces_.corners.reserve(3 * faces.size());
     for (size_t i = 0; i < faces.size(); ++i) {
-      if (faces[i].kind != ValueKind::kList) {
-        note_wrong(problems_, node_, "a face", std::string(name_of(faces[i].kind)), "is left out",
+      if (!faces[i].is_list()) {
+        note_wrong(problems_, node_, "a face", std::string(name_of(faces[i].kind())), "is left out",
                    "a list of indices of points");
         continue;
       }
       const size_t begin = faces_.corners.size();
-      const bool goes_on = read_face(tree_.elements_of(faces[i]), i);
+      const bool goes_on = read_face(faces[i].elements(), i);
       // The first corner stays the first: one that crosses itself is cut into triangles there.
       if (begin < faces_.corners.size()) {
         std::reverse(faces_.corners.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
@@ -236,7 +235,7 @@ class FaceReader {
 
  private:
   /// Returns false if a point is none.
-  bool read_face(std::span<const Value> corners, size_t face) {
+  bool read_face(const ValueList& corners, size_t face) {
     for (size_t i = 0; i < corners.size(); ++i) {
       const std::optional<uint32_t> index = read_index(corners[i], face, i);
       if (!index) continue;
@@ -250,18 +249,18 @@ class FaceReader {
   }
 
   /// Returns the point that a value names; none where it is beyond the points.
-  std::optional<uint32_t> read_index(const Value& value, size_t face, size_t place) {
-    if (value.kind != ValueKind::kNumber) {
-      note_wrong(problems_, node_, "an index of a face", std::string(name_of(value.kind)),
+  std::optional<uint32_t> read_index(const ArgumentValue& value, size_t face, size_t place) {
+    if (!value.is_number()) {
+      note_wrong(problems_, node_, "an index of a face", std::string(name_of(value.kind())),
                  "counts as 0", "a number");
     }
-    const double number = value.kind == ValueKind::kNumber ? value.number : 0;
+    const double number = value.is_number() ? value.number() : 0;
     if (number > -1 && number < static_cast<double>(points_.size())) {
       return static_cast<uint32_t>(number);
     }
     beyond_points_.add([&] {
       return NodeProblems::Description{
-          ": Point index " + text_of(tree_, value) + " is out of bounds (from faces[" +
+          ": Point index " + text_of(value) + " is out of bounds (from faces[" +
               std::to_string(face) + "][" + std::to_string(place) + "]), and is left out",
           points_.empty() ? "there are no points"
                           : "the points are 0 to " + std::to_string(points_.size() - 1)};
@@ -271,15 +270,14 @@ class FaceReader {
 
   void note_bad_point(uint32_t index) {
     problems_.add(node_, {": Unable to convert points[" + std::to_string(index) +
-                              "] = " + text_of(tree_, points_[index]) +
+                              "] = " + text_of(points_[index]) +
                               " to a vec3 of numbers, and the faces from there on are "
                               "left out",
                           "it must be a list of three finite numbers"});
   }
 
-  const SyntaxTree& tree_;
-  const SyntaxNode& node_;
-  std::span<const Value> points_;
+  const Node& node_;
+  const ValueList points_;
   NodeProblems& problems_;
   ElementProblem beyond_points_;
   FaceSet faces_;
@@ -287,101 +285,99 @@ class FaceReader {
 
 }  // namespace
 
-FaceSet read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
-  const std::span<const Value> points = list_argument(tree, node, "points", 0, problems);
-  std::span<const Value> faces = list_argument(tree, node, "faces", 1, problems);
+FaceSet read_polyhedron(const NodeTree& tree, const Node& node, NodeProblems& problems) {
+  const ValueList points = list_argument(tree, node, "points", 0, problems);
+  ValueList faces = list_argument(tree, node, "faces", 1, problems);
   if (faces.empty()) faces = list_argument(tree, node, "triangles", kByNameOnly, problems);
-  return FaceReader(tree, node, points, problems).read(faces);
+  return FaceReader(node, points, problems).read(faces);
 }
 
-FileArguments read_file_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+FileArguments read_file_arguments(const NodeTree& tree, const Node& node,
                                   NodeProblems& problems) {
   FileArguments result;
-  const Value* file = find_argument(tree, node, "file", 0);
-  if (file != nullptr && file->kind == ValueKind::kString) {
-    result.file = tree.text_of(*file);
-  } else if (file != nullptr) {
-    note_wrong_type(problems, node, "file", *file, "a name");
+  const ArgumentValue file = find_argument(tree, node, "file", 0);
+  if (file.is_string()) {
+    result.file = file.text();
+  } else {
+    note_wrong_type(problems, node, "file", file, "a name");
   }
   if (node.kind != NodeKind::kSurface) return result;
-  const Value* center = find_argument(tree, node, "center", 1);
-  result.is_centered = center != nullptr && read_center(node, *center, problems);
-  const Value* invert = find_argument(tree, node, "invert", 2);
-  result.is_inverted = invert != nullptr && invert->kind == ValueKind::kBool && invert->boolean;
+  const ArgumentValue center = find_argument(tree, node, "center", 1);
+  result.is_centered = read_center(node, center, problems);
+  result.is_inverted = find_argument(tree, node, "invert", 2).is_true();
   return result;
 }
 
-FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+FileMatrix read_matrix(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   FileMatrix result;
   result.has_all_digits = tree.has_all_digits;
-  const Value* matrix = find_argument(tree, node, "m", 0);
-  if (matrix == nullptr) return result;
-  if (matrix->kind != ValueKind::kList) {
-    note_wrong_type(problems, node, "the matrix", *matrix, "a list of four rows");
+  const ArgumentValue matrix = find_argument(tree, node, "m", 0);
+  if (!matrix.is_list()) {
+    note_wrong_type(problems, node, "the matrix", matrix, "a list of four rows");
     return result;
   }
-  const std::span<const Value> rows = tree.elements_of(*matrix);
+  const ValueList rows = matrix.elements();
   for (size_t row = 0; row < std::min<size_t>(rows.size(), 4); ++row) {
-    if (rows[row].kind != ValueKind::kList) {
+    if (!rows[row].is_list()) {
       note_wrong_type(problems, node, "a row of the matrix", rows[row], "a list of four numbers");
       continue;
     }
-    const std::span<const Value> entries = tree.elements_of(rows[row]);
+    const ValueList entries = rows[row].elements();
     for (size_t column = 0; column < std::min<size_t>(entries.size(), 4); ++column) {
-      const Value& entry = entries[column];
-      if (entry.kind != ValueKind::kNumber) {
+      const ArgumentValue entry = entries[column];
+      if (!entry.is_number()) {
         note_wrong_type(problems, node, "an entry of the matrix", entry, "a number");
         continue;
       }
       const int r = static_cast<int>(row);
       const int c = static_cast<int>(column);
       if (row == 3) {
-        if (column == 3) result.divisor = entry.number;  // other projective terms are ignored
+        if (column == 3) result.divisor = entry.number();  // other projective terms are ignored
       } else if (column == 3) {
-        result.map.translation[r] = entry.number;
+        result.map.translation[r] = entry.number();
       } else {
-        result.map.linear[c][r] = entry.number;
+        result.map.linear[c][r] = entry.number();
       }
     }
   }
   return result;
 }
 
-std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNode& node,
+std::optional<csgcore::Color> read_color(const NodeTree& tree, const Node& node,
                                          NodeProblems& problems) {
-  const Value* color = find_argument(tree, node, "c", 0);
-  if (color == nullptr || color->kind == ValueKind::kUndef) return std::nullopt;
+  const ArgumentValue color = find_argument(tree, node, "c", 0);
+  if (color.is_undef()) return std::nullopt;
   std::array<double, 4> channels{1, 1, 1, 1};  // OpenSCAD's for those that are missing
-  if (color->kind == ValueKind::kList) {
-    const std::span<const Value> elements = tree.elements_of(*color);
+  if (color.is_list()) {
+    const ValueList elements = color.elements();
     for (size_t i = 0; i < std::min<size_t>(elements.size(), 4); ++i) {
-      if (elements[i].kind == ValueKind::kNumber) {
-        channels[i] = elements[i].number;
+      if (elements[i].is_number()) {
+        channels[i] = elements[i].number();
         continue;
       }
       channels[i] = 0;  // as OpenSCAD reads it
-      if (elements[i].kind == ValueKind::kUndef) continue;
-      note_wrong(problems, node, "a channel", std::string(name_of(elements[i].kind)), "counts as 0",
+      if (elements[i].is_undef()) continue;
+      note_wrong(problems, node, "a channel", std::string(name_of(elements[i].kind())), "counts as 0",
                  "a number from 0 to 1");
     }
-  } else if (color->kind == ValueKind::kString) {
-    const std::optional<csgcore::Color> named = color_of_name(tree.text_of(*color));
+  } else if (color.is_string()) {
+    const std::optional<csgcore::Color> named = color_of_name(color.text());
     if (!named) {
       problems.add(node,
-                   {": \"" + std::string(tree.text_of(*color)) + "\" is no colour, and is ignored",
+                   {": \"" + std::string(color.text()) + "\" is no colour, and is ignored",
                     "use a CSS colour name, \"#rrggbb\" or [r, g, b]"});
       return std::nullopt;
     }
     channels = {named->r, named->g, named->b, named->a};
   } else {
-    note_wrong_type(problems, node, "the colour", *color, "a list of numbers or a name");
+    note_wrong_type(problems, node, "the colour", color, "a list of numbers or a name");
     return std::nullopt;
   }
-  const Value* alpha = find_argument(tree, node, "alpha", 1);
-  if (alpha != nullptr && alpha->kind == ValueKind::kNumber) {
-    channels[3] = alpha->number;
-  } else if (alpha != nullptr) {
-    note_wrong_type(problems, node, "alpha", *alpha, "a number from 0 to 1");
+  const ArgumentValue alpha = find_argument(tree, node, "alpha", 1);
+  if (alpha.is_number()) {
+    channels[3] = alpha.number();
+  } else {
+    note_wrong_type(problems, node, "alpha", alpha, "a number from 0 to 1");
   }
   return color_of_channels(channels);
 }

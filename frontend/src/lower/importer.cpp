@@ -31,7 +31,7 @@ constexpr uint32_t kNone = Collector::kNoPrimitive;
 /// Writes parts of the file as trees over leaves.
 class Emitter {
  public:
-  Emitter(const SyntaxTree& tree, const Collector& collected, const ResolvedModifiers& modifiers,
+  Emitter(const NodeTree& tree, const Collector& collected, const ResolvedModifiers& modifiers,
           Leaves& leaves)
       : tree_(tree), collected_(collected), modifiers_(modifiers), leaves_(leaves) {}
 
@@ -56,7 +56,7 @@ class Emitter {
   std::vector<LeafTree> parts(std::span<const uint32_t> roots) {
     std::vector<LeafTree> trees;
     for (const uint32_t root : roots) {
-      LeafTree tree = emit({root, tree_.nodes[root].subtree_end}, root, true);
+      LeafTree tree = emit({root, tree_.nodes[root].end}, root, true);
       if (!tree.empty()) trees.push_back(std::move(tree));
     }
     return trees;
@@ -66,19 +66,19 @@ class Emitter {
   LeafTree emit(NodeRange range, uint32_t root, bool keeps_highlighted) {
     open_.assign(1, {kNone, kNone, keeps_highlighted, false});
     for (uint32_t i = range.begin; i < range.end;) {
-      const SyntaxNode& node = tree_.nodes[i];
+      const Node& node = tree_.nodes[i];
       close_until(i);
       if (i != root && !is_operand(i)) {
-        i = node.subtree_end;
+        i = node.end;
       } else if (const Collector::PlaneLeaf* leaf = collected_.plane_leaf(i)) {
         add_plane_leaf(i, *leaf);
-        i = node.subtree_end;
+        i = node.end;
       } else if (collected_.primitive_of[i] != kNone) {
         add_primitive(i);
-        i = node.subtree_end;
-      } else if (role_of(node.kind) != Role::kOperation || node.subtree_end == i + 1) {
+        i = node.end;
+      } else if (role_of(node.kind) != Role::kOperation || node.end == i + 1) {
         builder().empty();
-        i = node.subtree_end;
+        i = node.end;
       } else {
         i = enter(i);
       }
@@ -101,12 +101,12 @@ class Emitter {
 
   /// Opens the node, and returns the one to look at next.
   uint32_t enter(uint32_t index) {
-    const SyntaxNode& node = tree_.nodes[index];
-    const bool is_highlighted = open_.back().is_highlighted || (node.modifiers & kHighlight) != 0;
+    const Node& node = tree_.nodes[index];
+    const bool is_highlighted = is_highlighted_within(index);
     const uint32_t compound = in_leaf_ ? kNone : compound_leaf_at(index);
     if (compound != kNone && leaf_of_compound_.contains(compound)) {
       add_leaf(leaf_of_compound_[compound], is_highlighted);
-      return node.subtree_end;
+      return node.end;
     }
     const Op op = operation_of(node.kind);
     const bool keeps_highlighted = op != Op::kUnion || (!modifiers_.nodes.empty() &&
@@ -116,7 +116,7 @@ class Emitter {
     } else {
       in_leaf_ = true;
     }
-    open_.push_back({node.subtree_end, compound, keeps_highlighted, is_highlighted});
+    open_.push_back({node.end, compound, keeps_highlighted, is_highlighted});
     return index + 1;
   }
 
@@ -142,8 +142,7 @@ class Emitter {
       leaf_builder_.primitive(primitive);
       return;
     }
-    add_leaf(primitive,
-             open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
+    add_leaf(primitive, is_highlighted_within(node));
   }
 
   void add_plane_leaf(uint32_t node, const Collector::PlaneLeaf& plane) {
@@ -162,8 +161,13 @@ class Emitter {
                           ? plane.solid.tokens().front().value
                           : leaves_.add(plane.solid, plane.frame, plane.known_box);
     }
-    add_leaf(entry->second,
-             open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
+    add_leaf(entry->second, is_highlighted_within(node));
+  }
+
+  /// Whether the node has `#`, or a node that is open.
+  bool is_highlighted_within(uint32_t node) const {
+    const uint8_t own = modifiers_of(tree_, collected_.selected, node);
+    return open_.back().is_highlighted || (own & language::kHighlightModifier) != 0;
   }
 
   void add_leaf(uint32_t leaf, bool is_highlighted) {
@@ -190,7 +194,7 @@ class Emitter {
     return !state.highlighted || open_.back().keeps_highlighted || in_leaf_;
   }
 
-  const SyntaxTree& tree_;
+  const NodeTree& tree_;
   const Collector& collected_;
   const ResolvedModifiers& modifiers_;
   Leaves& leaves_;
@@ -203,7 +207,7 @@ class Emitter {
 };
 
 /// Healing is done by then: it knows axes and caps of what is round.
-void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& warnings) {
+void facet(const DesignTree& tree, Collector& collected, std::vector<Warning>& warnings) {
   uint32_t count = 0;
   uint32_t first = kNone;  // primitive
   for (uint32_t i = 0; i < collected.primitives.size(); ++i) {
@@ -213,9 +217,10 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
   }
   if (count == 0) return;
   const auto node = std::find(collected.primitive_of.begin(), collected.primitive_of.end(), first);
-  const Location first_place = tree.nodes[node - collected.primitive_of.begin()].location;
+  const language::Place first_place =
+      tree.nodes->nodes[static_cast<size_t>(node - collected.primitive_of.begin())].place;
   warnings.push_back(
-      make_warning(tree.file_of(first_place), first_place,
+      make_warning(tree.file_of(first_place), tree.location_of(first_place),
                    std::to_string(count) + " round primitive" +
                        (count == 1 ? " is smooth" : "s are smooth; this is the first") +
                        ": more than " + std::to_string(kMostFacets) + " facets would be needed",
@@ -227,14 +232,14 @@ void add_inner_parts(const Collector& collected, ResolvedModifiers& modifiers) {
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
     if (leaf.presence != Presence::kSolid) continue;
     const uint8_t own = leaf.inner_modifiers;
-    if ((own & kBackground) != 0) modifiers.background.push_back(leaf.node);
-    if ((own & kHighlight) != 0) modifiers.highlight.push_back(leaf.node);
+    if ((own & language::kBackgroundModifier) != 0) modifiers.background.push_back(leaf.node);
+    if ((own & language::kHighlightModifier) != 0) modifiers.highlight.push_back(leaf.node);
   }
   std::sort(modifiers.background.begin(), modifiers.background.end());
   std::sort(modifiers.highlight.begin(), modifiers.highlight.end());
 }
 
-ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collected,
+ResolvedModifiers modifiers_of(const NodeTree& tree, const Collector& collected,
                                PictureKind picture) {
   if (!collected.any_modifiers && collected.left_out.empty()) return {};
   std::vector<LeafState> leaves(tree.nodes.size());
@@ -304,7 +309,7 @@ void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& des
 
 /// Makes the design of what the collector holds, which it frees as soon as it can: of a large
 /// design each part of it has hundreds of MB.
-ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
+ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
                              const ImportOptions& options, const std::stop_token& stop) {
   ImportedDesign design;
   design.warnings = collected.problems.warnings(tree);
@@ -325,8 +330,8 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.files.insert(design.files.end(), fonts.begin(), fonts.end());
   throw_if_stopped(stop);
   Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
-  const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);
-  Design trees = Emitter(tree, collected, modifiers, leaves).design();
+  const ResolvedModifiers modifiers = modifiers_of(*tree.nodes, collected, options.picture);
+  Design trees = Emitter(*tree.nodes, collected, modifiers, leaves).design();
   count_leaves(trees, leaves, design);
   design.faceted_leaves = static_cast<uint32_t>(
       std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
@@ -351,7 +356,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.scene.primitives = std::move(collected.primitives);
   if (!compose(std::move(trees), leaves, decides ? boxes.deciding : boxes.seen, options.picture,
                design.scene)) {
-    design.warnings.push_back(make_warning(tree.file_name, {},
+    design.warnings.push_back(make_warning(tree.name, {},
                                            "the translucent parts make more than " +
                                                std::to_string(kMostProducts) +
                                                " products: some show their nearest surfaces alone",
@@ -360,28 +365,15 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   return design;
 }
 
-/// Calls `is_collected` when the nodes' arguments are needed no more.
-template <typename Callback>
-ImportedDesign import_and_tell(const SyntaxTree& tree, const ImportOptions& options,
-                               const std::stop_token& stop, const Callback& is_collected) {
+}  // namespace
+
+ImportedDesign import_design(const DesignTree& tree, const ImportOptions& options,
+                             const std::stop_token& stop) {
   const csgcore::StopScope scope(&stop);
   Collector collected(tree, options);
   collected.collect(stop);
-  is_collected();
   collected.finish(stop);
   return finish_import(tree, collected, options, stop);
-}
-
-}  // namespace
-
-ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
-                             const std::stop_token& stop) {
-  return import_and_tell(tree, options, stop, [] {});
-}
-
-ImportedDesign import_design(SyntaxTree&& tree, const ImportOptions& options,
-                             const std::stop_token& stop) {
-  return import_and_tell(tree, options, stop, [&] { tree.free_arguments(); });
 }
 
 }  // namespace frontend

@@ -5,6 +5,9 @@
 namespace frontend {
 namespace {
 
+constexpr uint8_t kBackground = language::kBackgroundModifier;
+constexpr uint8_t kHighlight = language::kHighlightModifier;
+
 /// Whether parts are shown that stand inside of such a node.
 bool shows_parts(NodeKind kind) {
   switch (kind) {
@@ -45,12 +48,8 @@ std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree) {
   for (uint32_t i = subtree.root(); i < subtree.end();) {
     while (!around.empty() && i >= subtree.end_of(around.back())) around.pop_back();
     while (!open.empty() && i >= open.back().end) open.pop_back();
-    const SyntaxNode& node = subtree.syntax(i);
+    const Node& node = subtree.syntax(i);
     const bool is_inner = i != subtree.root();
-    if (!subtree.is_taken(i) || (is_inner && (node.modifiers & kDisable) != 0)) {
-      i = subtree.end_of(i);
-      continue;
-    }
     uint8_t modifiers = is_inner ? node.modifiers & (kBackground | kHighlight) : 0;
     // What is in the background is not overlaid with what is around it.
     if ((modifiers & kBackground) == 0 && !open.empty()) modifiers |= open.back().modifiers;

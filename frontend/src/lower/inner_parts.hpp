@@ -11,7 +11,7 @@ namespace frontend {
 /// A node inside of such a node that has `%` or `#`, or stands in groups that do.
 struct InnerPart {
   uint32_t node;
-  uint8_t modifiers;             // kBackground, kHighlight or both
+  uint8_t modifiers;             // CallModifiers % and #, or both
   std::vector<uint32_t> around;  // the multmatrix and color nodes around it, from the root's on
 };
 

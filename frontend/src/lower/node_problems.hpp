@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "frontend/error.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 
 namespace frontend {
 
@@ -23,16 +23,16 @@ class NodeProblems {
 
   /// Adds a problem that occurs `count` times in the node. Only equal ones of a kind of node are
   /// folded into one warning, so that none hides another file, or another cause.
-  void add(const SyntaxNode& node, Description description, uint64_t count = 1);
+  void add(const Node& node, Description description, uint64_t count = 1);
 
   void clear() { *this = {}; }
 
   /// In the order of the places where each occurs first.
-  std::vector<Warning> warnings(const SyntaxTree& tree) const;
+  std::vector<Warning> warnings(const DesignTree& tree) const;
 
  private:
   struct Problem {
-    Location first;
+    language::Place first;
     uint64_t count = 0;
     uint64_t order = 0;  // among all, of the first
     bool is_note = false;
@@ -51,7 +51,7 @@ struct ElementProblem {
   void add(const Describe& describe) {
     if (count++ == 0) first = describe();
   }
-  void tell(const SyntaxNode& node, NodeProblems& problems) const {
+  void tell(const Node& node, NodeProblems& problems) const {
     if (count > 0) problems.add(node, first, count);
   }
 };

@@ -6,7 +6,7 @@
 
 #include "csgcore/csg_tree.hpp"
 #include "frontend/import_options.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 
 namespace frontend {
 

@@ -55,11 +55,10 @@ PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& prob
 }
 
 void PlaneEvaluation::find_presence(uint32_t node) {
-  const SyntaxNode& syntax = subtree_.syntax(node);
-  if (!subtree_.is_taken(node)) return;
+  const language::Node& syntax = subtree_.syntax(node);
   const bool is_root = node == subtree_.root();
   // The modifiers of the root count where it stands.
-  if (!is_root && (syntax.modifiers & (kDisable | kBackground)) != 0) return;
+  if (!is_root && (syntax.modifiers & language::kBackgroundModifier) != 0) return;
   Node& own = at(node);
   if (const ImportedDrawing* drawing = subtree_.drawing(node)) {
     own.dimension = is_extrusion(syntax.kind) && !is_root ? 3 : 2;
@@ -104,7 +103,7 @@ void PlaneEvaluation::find_presence(uint32_t node) {
 }
 
 void PlaneEvaluation::combine(uint32_t node) {
-  const SyntaxNode& syntax = subtree_.syntax(node);
+  const language::Node& syntax = subtree_.syntax(node);
   Node& own = at(node);
   if (wants_plane(syntax.kind)) own.dimension = 2;
   visit_operands(node, [&](uint32_t child) {

@@ -19,7 +19,7 @@ csgcore::FacetSettings chosen(const ImportOptions& options, csgcore::FacetSettin
   return facets;
 }
 
-FigureNode circle_node(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options,
+FigureNode circle_node(const NodeTree& tree, const Node& node, const ImportOptions& options,
                        NodeProblems& problems) {
   const RoundPrimitive round = read_round_primitive(tree, node, problems);
   const csgcore::FacetSettings facets = chosen(options, round.facets);
@@ -34,7 +34,7 @@ FigureNode circle_node(const SyntaxTree& tree, const SyntaxNode& node, const Imp
   return result;
 }
 
-FigureNode square_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+FigureNode square_node(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   const Rectangle box = read_square(tree, node, problems);
   const Vec2 size = box.max - box.min;
   FigureNode result;
@@ -44,12 +44,12 @@ FigureNode square_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
   return result;
 }
 
-FigureNode polygon_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+FigureNode polygon_node(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   return {cleaned(outline_of(read_polygon(tree, node, problems)))};
 }
 
 /// OpenSCAD's chords of a curve in a text; 0: it is kept.
-int pieces_of_curves(const SyntaxTree& tree, const SyntaxNode& node, double size,
+int pieces_of_curves(const NodeTree& tree, const Node& node, double size,
                      const ImportOptions& options) {
   const csgcore::FacetSettings facets = chosen(options, read_facet_settings(tree, node));
   const int fragments = csgcore::fragment_count(size, facets);
@@ -58,14 +58,14 @@ int pieces_of_curves(const SyntaxTree& tree, const SyntaxNode& node, double size
   return std::max(kFewestPieces, fragments / kFragmentsOfPiece + 1);
 }
 
-TextNode text_node(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options,
+TextNode text_node(const NodeTree& tree, const Node& node, const ImportOptions& options,
                    DesignFonts& fonts, NodeProblems& problems) {
   const TextSettings text = read_text(tree, node, problems);
   const int pieces = pieces_of_curves(tree, node, text.size, options);
   return {letters_of(node, text, pieces, fonts, problems)};
 }
 
-MatrixNode matrix_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+MatrixNode matrix_node(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   FileMatrix file = read_matrix(tree, node, problems);
   MatrixNode result;
   const csgcore::Affine divided{file.map.linear / file.divisor,
@@ -96,7 +96,7 @@ LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
   return {arguments, keeps_facets(options, asked)};
 }
 
-PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options,
+PlaneNodeData data_of(const NodeTree& tree, const Node& node, const ImportOptions& options,
                       DesignFonts& fonts, NodeProblems& problems) {
   switch (node.kind) {
     case NodeKind::kCircle:
@@ -128,7 +128,7 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
   }
 }
 
-const ImportedDrawing* drawing_of(const SyntaxTree& tree, const SyntaxNode& node,
+const ImportedDrawing* drawing_of(const NodeTree& tree, const Node& node,
                                   const ImportOptions& options, FileImports& files,
                                   NodeProblems& problems) {
   if (!names_drawing(tree, node)) return nullptr;
@@ -149,8 +149,8 @@ const ImportedDrawing* drawing_of(const SyntaxTree& tree, const SyntaxNode& node
 void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options,
                         const PlaneSources& sources, NodeProblems& problems) {
   nodes_.resize(node - root_ + 1);
-  const SyntaxNode& syntax = tree_.nodes[node];
-  nodes_.back() = {true, id, data_of(tree_, syntax, options, sources.fonts, problems),
+  const Node& syntax = tree_.nodes[node];
+  nodes_.back() = {id, data_of(tree_, syntax, options, sources.fonts, problems),
                    drawing_of(tree_, syntax, options, sources.files, problems),
                    read_solid_node(tree_, syntax, options, problems)};
 }
@@ -163,7 +163,7 @@ PlaneSubtree PlaneSubtree::part(uint32_t node) const {
 }
 
 uint32_t PlaneSubtree::end_of(uint32_t node) const {
-  return std::min(tree_.nodes[node].subtree_end, end());
+  return std::min(tree_.nodes[node].end, end());
 }
 
 bool keeps_facets(const ImportOptions& options, const csgcore::FacetSettings& facets) {

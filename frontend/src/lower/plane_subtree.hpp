@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frontend/import_options.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "heal/matrix_healing.hpp"
 #include "lower/import_files.hpp"
 #include "lower/node_problems.hpp"
@@ -62,7 +62,7 @@ struct PlaneSources {
 /// The nodes of the subtree, in the tree's order, as far as they were taken.
 class PlaneSubtree {
  public:
-  PlaneSubtree(const SyntaxTree& tree, uint32_t root) : tree_(tree), root_(root) {}
+  PlaneSubtree(const NodeTree& tree, uint32_t root) : tree_(tree), root_(root) {}
 
   /// Reads the arguments of a node of the subtree, and the drawing that it names. `id` is its place
   /// among the primitive nodes. The files must outlive this.
@@ -72,15 +72,13 @@ class PlaneSubtree {
   /// Returns the node's own subtree.
   PlaneSubtree part(uint32_t node) const;
 
-  const SyntaxTree& tree() const { return tree_; }
+  const NodeTree& tree() const { return tree_; }
   uint32_t root() const { return root_; }
   /// Of the last descendant, one more.
   uint32_t end() const { return root_ + static_cast<uint32_t>(nodes_.size()); }
   /// One past the node's last descendant; of the root, end().
   uint32_t end_of(uint32_t node) const;
-  /// Descendants of a disabled node are not taken.
-  bool is_taken(uint32_t node) const { return nodes_[node - root_].is_taken; }
-  const SyntaxNode& syntax(uint32_t node) const { return tree_.nodes[node]; }
+  const Node& syntax(uint32_t node) const { return tree_.nodes[node]; }
   /// Returns the id of the primitives of the node, which is that of its first primitive node.
   uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
   /// Returns the drawing that the node names; null if it names none.
@@ -93,16 +91,15 @@ class PlaneSubtree {
   const SolidNode& solid(uint32_t node) const { return nodes_[node - root_].solid; }
 
  private:
-  struct Node {
-    bool is_taken = false;
+  struct Taken {
     uint32_t id = 0;
     PlaneNodeData data;
     const ImportedDrawing* drawing = nullptr;
     SolidNode solid;
   };
-  const SyntaxTree& tree_;
+  const NodeTree& tree_;
   uint32_t root_;
-  std::vector<Node> nodes_;
+  std::vector<Taken> nodes_;
 };
 
 /// Whether what OpenSCAD draws with these settings is drawn in facets, if it has any.

@@ -7,7 +7,7 @@
 
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "lower/node_problems.hpp"
 #include "plane/figure.hpp"
 #include "plane/offset.hpp"
@@ -15,20 +15,20 @@
 namespace frontend {
 
 /// Square node → the rectangle; it may be empty, flat or infinite.
-Rectangle read_square(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+Rectangle read_square(const NodeTree& tree, const Node& node, NodeProblems& problems);
 
 /// Polygon node → its paths, all of finite points, filled by the even-odd rule.
-Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+Polygons read_polygon(const NodeTree& tree, const Node& node, NodeProblems& problems);
 
 /// $fn, $fa and $fs of a node.
-csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node);
+csgcore::FacetSettings read_facet_settings(const NodeTree& tree, const Node& node);
 
 struct OffsetArguments {
   double distance = 1;
   CornerStyle corners = CornerStyle::kRound;
   csgcore::FacetSettings facets;
 };
-OffsetArguments read_offset(const SyntaxTree& tree, const SyntaxNode& node);
+OffsetArguments read_offset(const NodeTree& tree, const Node& node);
 
 /// The sizes of a resize node: a plane figure has no z.
 struct ResizeArguments {
@@ -39,10 +39,10 @@ struct ResizeArguments {
   /// others are 1.
   csgcore::Vec3 factors(const csgcore::Vec3& box_size, int axes) const;
 };
-ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
+ResizeArguments read_resize(const NodeTree& tree, const Node& node);
 
 /// Whether a projection node is a section; else it is a shadow.
-bool read_cut(const SyntaxTree& tree, const SyntaxNode& node);
+bool read_cut(const NodeTree& tree, const Node& node);
 
 struct LinearExtrudeArguments {
   double height = 100;  // ≤ 0: nothing
@@ -56,7 +56,7 @@ struct LinearExtrudeArguments {
   std::optional<double> segments{};
   csgcore::FacetSettings facets;
 };
-LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxNode& node,
+LinearExtrudeArguments read_linear_extrude(const NodeTree& tree, const Node& node,
                                            NodeProblems& problems);
 
 struct RotateExtrudeArguments {
@@ -64,6 +64,6 @@ struct RotateExtrudeArguments {
   std::optional<double> start{};
   csgcore::FacetSettings facets;
 };
-RotateExtrudeArguments read_rotate_extrude(const SyntaxTree& tree, const SyntaxNode& node);
+RotateExtrudeArguments read_rotate_extrude(const NodeTree& tree, const Node& node);
 
 }  // namespace frontend

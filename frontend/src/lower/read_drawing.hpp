@@ -6,17 +6,17 @@
 #include <string_view>
 
 #include "drawings/drawing.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "lower/node_problems.hpp"
 
 namespace frontend {
 
 /// Returns whether the node's figure is a drawing: that of an import by its file's suffix, and that
 /// of an extrusion where it names a file.
-bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node);
+bool names_drawing(const NodeTree& tree, const Node& node);
 
 /// Returns whether the node has a place among Primitive::id.
-bool has_place(const SyntaxTree& tree, const SyntaxNode& node);
+bool has_place(const NodeTree& tree, const Node& node);
 
 enum class DrawingFormat : uint8_t { kDxf, kSvg };
 
@@ -32,7 +32,7 @@ struct DrawingArguments {
 };
 
 /// The node names a drawing. Extrusions read DXF alone, as in OpenSCAD.
-DrawingArguments read_drawing_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+DrawingArguments read_drawing_arguments(const NodeTree& tree, const Node& node,
                                         NodeProblems& problems);
 
 }  // namespace frontend

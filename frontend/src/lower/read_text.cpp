@@ -26,11 +26,10 @@ constexpr std::array<AlignWord<VerticalAlign>, 4> kVerticalWords = {
 /// OpenSCAD's development version writes this where nothing is said.
 constexpr std::string_view kDefaultWord = "default";
 
-std::string_view string_argument(const SyntaxTree& tree, const SyntaxNode& node,
-                                 std::string_view name, size_t position = kByNameOnly) {
-  const Value* value = find_argument(tree, node, name, position);
-  const bool is_string = value != nullptr && value->kind == ValueKind::kString;
-  return is_string ? tree.text_of(*value) : std::string_view();
+std::string_view string_argument(const NodeTree& tree, const Node& node,
+                                 language::ArgumentName name, size_t position = kByNameOnly) {
+  const ArgumentValue value = find_argument(tree, node, name, position);
+  return value.is_string() ? value.text() : std::string_view();
 }
 
 /// Returns the words as a sentence has them: "left", "right" or "center".
@@ -46,14 +45,14 @@ std::string listed(const Words& words) {
 
 /// The first of the words is the default.
 template <typename Words>
-auto align_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
+auto align_argument(const NodeTree& tree, const Node& node, language::ArgumentName name,
                     const Words& words, NodeProblems& problems) {
   const std::string_view given = string_argument(tree, node, name);
   for (const auto& known : words) {
     if (given == known.word) return known.align;
   }
   if (!given.empty() && given != kDefaultWord) {
-    problems.add(node, {": Unknown value for the " + std::string(name) + " parameter (use " +
+    problems.add(node, {": Unknown value for the " + std::string(name.text()) + " parameter (use " +
                             listed(words) + "): '" + std::string(given) + "'",
                         "it counts as missing"});
   }
@@ -62,7 +61,7 @@ auto align_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_
 
 }  // namespace
 
-TextSettings read_text(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+TextSettings read_text(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   TextSettings result;
   result.letters.text = string_argument(tree, node, "text", 0);
   result.size = number_argument(tree, node, "size", 1).value_or(result.size);
@@ -77,7 +76,7 @@ TextSettings read_text(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
   return result;
 }
 
-std::vector<PlacedGlyph> letters_of(const SyntaxNode& node, const TextSettings& text, int pieces,
+std::vector<PlacedGlyph> letters_of(const Node& node, const TextSettings& text, int pieces,
                                     DesignFonts& fonts, NodeProblems& problems) {
   DrawnText drawn = fonts.letters(text, pieces);
   switch (drawn.problem) {

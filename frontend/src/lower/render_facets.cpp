@@ -35,7 +35,7 @@ int most_fragments(const csgcore::FacetSettings& facets) {
   return static_cast<int>(std::clamp(count, 3.0, 36000.0));
 }
 
-RoundLeaf round_leaf(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options) {
+RoundLeaf round_leaf(const NodeTree& tree, const Node& node, const ImportOptions& options) {
   NodeProblems told;  // when the node was taken
   RoundLeaf leaf;
   switch (node.kind) {
@@ -93,9 +93,9 @@ double facets_of(NodeKind kind, double fragments, double children) {
 
 class FacetCount {
  public:
-  FacetCount(const SyntaxTree& tree, uint32_t root, const ImportOptions& options)
+  FacetCount(const NodeTree& tree, uint32_t root, const ImportOptions& options)
       : tree_(tree), root_(root) {
-    for (uint32_t i = root; i < tree.nodes[root].subtree_end; ++i) {
+    for (uint32_t i = root; i < tree.nodes[root].end; ++i) {
       leaves_.push_back(round_leaf(tree, tree.nodes[i], options));
     }
   }
@@ -113,11 +113,11 @@ class FacetCount {
     // Children come after their parents.
     for (size_t i = facets.size(); i-- > 0;) {
       const auto index = root_ + static_cast<uint32_t>(i);
-      const SyntaxNode& node = tree_.nodes[index];
+      const Node& node = tree_.nodes[index];
       const bool multiplies = node.kind == NodeKind::kMinkowski;
-      double children = multiplies && node.subtree_end > index + 1 ? 1 : 0;
-      for (uint32_t c = index + 1; c < node.subtree_end; c = tree_.nodes[c].subtree_end) {
-        if ((tree_.nodes[c].modifiers & (kDisable | kBackground)) != 0) continue;
+      double children = multiplies && node.end > index + 1 ? 1 : 0;
+      for (uint32_t c = index + 1; c < node.end; c = tree_.nodes[c].end) {
+        if ((tree_.nodes[c].modifiers & language::kBackgroundModifier) != 0) continue;
         const double of_child = facets[c - root_];
         children = multiplies ? children * std::max(of_child, 1.0) : children + of_child;
       }
@@ -127,20 +127,20 @@ class FacetCount {
   }
 
  private:
-  const SyntaxTree& tree_;
+  const NodeTree& tree_;
   const uint32_t root_;
   std::vector<RoundLeaf> leaves_;
 };
 
 }  // namespace
 
-std::vector<double> render_fragments(const SyntaxTree& tree, uint32_t root,
+std::vector<double> render_fragments(const NodeTree& tree, uint32_t root,
                                      const ImportOptions& options) {
   const FacetCount count(tree, root, options);
   const auto* const wanted = std::ranges::find_if(
       kFragments, [&](int fragments) { return count.total(fragments) <= kMostRenderedFacets; });
   std::vector<double> result;
-  for (uint32_t i = root; i < tree.nodes[root].subtree_end; ++i) {
+  for (uint32_t i = root; i < tree.nodes[root].end; ++i) {
     const RoundLeaf& leaf = count.leaf(i);
     double fn = 0;
     if (leaf.is_round && options.fn) fn = *options.fn;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "frontend/import_options.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 
 namespace frontend {
 
@@ -14,7 +14,7 @@ namespace frontend {
 /// Where facets are not kept, what is round gets so many that they are below a pixel or about one,
 /// as long as openscad takes some seconds for all: it takes a millisecond for a facet, and in a
 /// Minkowski sum for each pair of one. Nothing gets fewer than the design gives it.
-std::vector<double> render_fragments(const SyntaxTree& tree, uint32_t root,
+std::vector<double> render_fragments(const NodeTree& tree, uint32_t root,
                                      const ImportOptions& options);
 
 }  // namespace frontend

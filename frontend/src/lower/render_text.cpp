@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "csg/argument_value.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
 #include "lower/node_roles.hpp"
@@ -55,7 +56,7 @@ std::string matrix_text(const csgcore::Affine& map) {
 
 class RenderText {
  public:
-  RenderText(const SyntaxTree& tree, uint32_t root, const ImportOptions& options)
+  RenderText(const NodeTree& tree, uint32_t root, const ImportOptions& options)
       : tree_(tree),
         root_(root),
         options_(options),
@@ -63,22 +64,22 @@ class RenderText {
 
   /// Solids are scaled by kRenderScale if `is_scaled`.
   void write(bool is_scaled) {
-    const uint32_t end = tree_.nodes[root_].subtree_end;
+    const uint32_t end = tree_.nodes[root_].end;
     if (!is_scaled) unscaled_until_ = end;
     std::vector<uint32_t> open;
     for (uint32_t i = root_; i < end;) {
       for (; !open.empty() && open.back() <= i; open.pop_back()) text_ += '}';
-      const SyntaxNode& node = tree_.nodes[i];
-      if (i != root_ && (node.modifiers & (kDisable | kBackground)) != 0) {
-        i = node.subtree_end;
+      const Node& node = tree_.nodes[i];
+      if (i != root_ && (node.modifiers & language::kBackgroundModifier) != 0) {
+        i = node.end;
         continue;
       }
       write_node(i);
-      if (node.subtree_end == i + 1) {
+      if (node.end == i + 1) {
         text_ += ';';
       } else {
         text_ += '{';
-        open.push_back(node.subtree_end);
+        open.push_back(node.end);
       }
       ++i;
     }
@@ -93,13 +94,13 @@ class RenderText {
   bool is_scaled(uint32_t index) const { return index >= unscaled_until_; }
 
   void write_node(uint32_t index) {
-    const SyntaxNode& node = tree_.nodes[index];
+    const Node& node = tree_.nodes[index];
     has_text_ = has_text_ || node.kind == NodeKind::kText;
     if (is_scaled(index) && is_solid_leaf(node.kind)) {
       csgcore::Affine larger;
       larger.linear = csgcore::Mat3(kRenderScale);
       text_ += matrix_text(larger);
-      unscaled_until_ = node.subtree_end;
+      unscaled_until_ = node.end;
       write_call(index);
     } else if (node.kind == NodeKind::kMultmatrix) {
       write_matrix(index);
@@ -136,16 +137,19 @@ class RenderText {
   }
 
   void write_call(uint32_t index) {
-    const SyntaxNode& node = tree_.nodes[index];
+    const Node& node = tree_.nodes[index];
     const double fn = fragments_[index - root_];
     text_ += std::string(name_of(node.kind)) + '(';
-    for (const Argument& argument : tree_.arguments_of(node)) {
-      if (argument.name == "timestamp" || (fn > 0 && argument.name == "$fn")) continue;
-      if (!argument.name.empty()) text_ += std::string(argument.name) + '=';
+    for (const language::NodeArgument& argument : tree_.arguments_of(node)) {
+      const std::string_view name = argument.name.text();
+      const bool is_unknown = name.empty() && !argument.name.is_positional();
+      if (is_unknown || name == "timestamp" || (fn > 0 && name == "$fn")) continue;
+      if (!name.empty()) text_ += std::string(name) + '=';
+      const ArgumentValue value(tree_, argument);
       if (names_file(node.kind, argument)) {
-        write_file(tree_.text_of(argument.value));
+        write_file(value.text());
       } else {
-        write_value(argument.value);
+        write_value(value);
       }
       text_ += ',';
     }
@@ -157,10 +161,10 @@ class RenderText {
     text_ += ')';
   }
 
-  static bool names_file(NodeKind kind, const Argument& argument) {
-    if (argument.value.kind != ValueKind::kString) return false;
+  static bool names_file(NodeKind kind, const language::NodeArgument& argument) {
+    if (!argument.value.is_string()) return false;
     const bool may_be_unnamed = kind == NodeKind::kImport || kind == NodeKind::kSurface;
-    return argument.name == "file" || (may_be_unnamed && argument.name.empty());
+    return argument.name == "file" || (may_be_unnamed && argument.name.is_positional());
   }
 
   void write_file(std::string_view name) {
@@ -180,49 +184,48 @@ class RenderText {
   }
 
   /// Does not recurse: lists may be nested deeply.
-  void write_value(const Value& value) {
+  void write_value(const ArgumentValue& value) {
     struct OpenList {
-      const Value* next;
-      const Value* end;
+      ValueList elements;
+      size_t next;
     };
     std::vector<OpenList> lists;
-    const Value* current = &value;
+    ArgumentValue current = value;
     for (;;) {
-      if (current->kind == ValueKind::kList) {
-        const std::span<const Value> elements = tree_.elements_of(*current);
+      if (current.is_list()) {
         text_ += '[';
-        lists.push_back({elements.data(), elements.data() + elements.size()});
+        lists.push_back({current.elements(), 0});
       } else {
-        write_scalar(*current);
+        write_scalar(current);
         if (!lists.empty()) text_ += ',';
       }
-      while (!lists.empty() && lists.back().next == lists.back().end) {
+      while (!lists.empty() && lists.back().next == lists.back().elements.size()) {
         lists.pop_back();
         text_ += lists.empty() ? "]" : "],";
       }
       if (lists.empty()) return;
-      current = lists.back().next++;
+      current = lists.back().elements[lists.back().next++];
     }
   }
 
-  void write_scalar(const Value& value) {
-    switch (value.kind) {
+  void write_scalar(const ArgumentValue& value) {
+    switch (value.kind()) {
       case ValueKind::kUndef:
       case ValueKind::kList:
         text_ += "undef";
         return;
       case ValueKind::kBool:
-        text_ += value.boolean ? "true" : "false";
+        text_ += value.boolean() ? "true" : "false";
         return;
       case ValueKind::kNumber:
-        text_ += number_text(value.number);
+        text_ += number_text(value.number());
         return;
       case ValueKind::kString:
-        text_ += string_literal(tree_.text_of(value));
+        text_ += string_literal(value.text());
     }
   }
 
-  const SyntaxTree& tree_;
+  const NodeTree& tree_;
   const uint32_t root_;
   const ImportOptions& options_;
   const std::vector<double> fragments_;
@@ -244,15 +247,15 @@ std::string font_lines(const std::vector<std::string>& fonts) {
 
 }  // namespace
 
-bool may_be_rendered(const SyntaxTree& tree, uint32_t root) {
+bool may_be_rendered(const NodeTree& tree, uint32_t root) {
   const auto begin = tree.nodes.begin();
-  return std::none_of(begin + root, begin + tree.nodes[root].subtree_end,
-                      [](const SyntaxNode& node) {
+  return std::none_of(begin + root, begin + tree.nodes[root].end,
+                      [](const Node& node) {
                         return node.kind == NodeKind::kRoof || node.kind == NodeKind::kFill;
                       });
 }
 
-RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plane,
+RenderRequest render_request(const NodeTree& tree, uint32_t root, bool is_plane,
                              const ImportOptions& options, const std::vector<std::string>& fonts) {
   RenderText body(tree, root, options);
   body.write(!is_plane);
@@ -263,11 +266,10 @@ RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plan
   request.text += is_plane ? "linear_extrude(height=1){" : "union(){";
   request.text += body.take_text() + '}' + std::string(kElsewhere) + "}\n";
   request.inputs = body.take_inputs();
-  request.line = tree.nodes[root].location.line;
   return request;
 }
 
-std::string subtree_text(const SyntaxTree& tree, uint32_t root, const ImportOptions& options,
+std::string subtree_text(const NodeTree& tree, uint32_t root, const ImportOptions& options,
                          const std::vector<std::string>& fonts) {
   RenderText body(tree, root, options);
   body.write(false);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frontend/import_options.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "rendered/rendering.hpp"
 
 namespace frontend {
@@ -17,18 +17,18 @@ namespace frontend {
 constexpr double kRenderScale = 1024;
 
 /// Whether OpenSCAD 2021.01 knows all nodes of the subtree.
-bool may_be_rendered(const SyntaxTree& tree, uint32_t root);
+bool may_be_rendered(const NodeTree& tree, uint32_t root);
 
 /// Returns the request for the subtree, whose root stands in its own coordinates. Equal geometry
 /// has equal texts, whatever the spaces, colours and modifiers in the file. Matrices are healed, as
 /// those around it are. A plane figure is extruded to z from 0 to 1, without a factor. `fonts` are
 /// the font files that the design brings along.
-RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plane,
+RenderRequest render_request(const NodeTree& tree, uint32_t root, bool is_plane,
                              const ImportOptions& options, const std::vector<std::string>& fonts);
 
 /// Returns the subtree, a solid whose root stands in its own coordinates, as a design for openscad
 /// that is nothing but it, unscaled.
-std::string subtree_text(const SyntaxTree& tree, uint32_t root, const ImportOptions& options,
+std::string subtree_text(const NodeTree& tree, uint32_t root, const ImportOptions& options,
                          const std::vector<std::string>& fonts);
 
 }  // namespace frontend

@@ -74,10 +74,10 @@ ResolvedNode close(const Open& open) {
 }
 
 void apply_modifiers(ResolvedNode& node_state, uint8_t modifiers) {
-  if ((modifiers & kHighlight) != 0) {
+  if ((modifiers & language::kHighlightModifier) != 0) {
     node_state.highlighted = node_state.presence == Presence::kSolid;
   }
-  if ((modifiers & kBackground) != 0 && node_state.presence != Presence::kLeftOut) {
+  if ((modifiers & language::kBackgroundModifier) != 0 && node_state.presence != Presence::kLeftOut) {
     node_state.presence = Presence::kBackground;
   }
 }
@@ -85,24 +85,22 @@ void apply_modifiers(ResolvedNode& node_state, uint8_t modifiers) {
 /// Walks the nodes and closes each after its last descendant.
 class ModifierResolver {
  public:
-  ModifierResolver(const SyntaxTree& tree, NodeRange selected, std::span<const LeafState> leaves)
+  ModifierResolver(const NodeTree& tree, NodeRange selected, std::span<const LeafState> leaves)
       : tree_(tree), selected_(selected), leaves_(leaves) {}
 
   ResolvedModifiers find() {
     resolved_.nodes.resize(tree_.nodes.size(), ResolvedNode{Presence::kAbsent, false, false});
     open_.push_back({0, NodeKind::kGroup, selected_.end});  // the top level is a union
     for (uint32_t i = selected_.begin; i < selected_.end;) {
-      const SyntaxNode& node = tree_.nodes[i];
+      const Node& node = tree_.nodes[i];
       close_until(i);
-      if ((node.modifiers & kDisable) != 0) {
-        i = node.subtree_end;
-      } else if (node.subtree_end > i + 1 && !leaves_[i].is_whole &&
+      if (node.end > i + 1 && !leaves_[i].is_whole &&
                  leaves_[i].presence != Presence::kLeftOut) {
-        open_.push_back({i, node.kind, node.subtree_end});
+        open_.push_back({i, node.kind, node.end});
         ++i;
       } else {
         finish(i, {leaves_[i].presence, false, false}, leaves_[i].box);
-        i = node.subtree_end;
+        i = node.end;
       }
     }
     close_until(selected_.end);
@@ -122,7 +120,7 @@ class ModifierResolver {
   }
 
   void finish(uint32_t node, ResolvedNode node_state, const csgcore::Box& box) {
-    apply_modifiers(node_state, tree_.nodes[node].modifiers);
+    apply_modifiers(node_state, modifiers_of(tree_, selected_, node));
     resolved_.nodes[node] = node_state;
     add_operand(open_.back(), node_state, box);
   }
@@ -138,31 +136,32 @@ class ModifierResolver {
         {selected_.end, NodeKind::kGroup, false}};  // overlaid whatever it consists of
     std::vector<uint32_t> highlight_ends;
     for (uint32_t i = selected_.begin; i < selected_.end;) {
-      const SyntaxNode& node = tree_.nodes[i];
+      const Node& node = tree_.nodes[i];
       const ResolvedNode& node_state = resolved_.nodes[i];
       while (parents.size() > 1 && parents.back().end <= i) parents.pop_back();
       while (!highlight_ends.empty() && highlight_ends.back() <= i) highlight_ends.pop_back();
       if (node_state.presence == Presence::kAbsent || node_state.presence == Presence::kLeftOut) {
-        i = node.subtree_end;
+        i = node.end;
         continue;
       }
       Parent& parent = parents.back();
       const bool own_background =
-          (node.modifiers & kBackground) != 0 && node_state.presence == Presence::kBackground;
+          (modifiers_of(tree_, selected_, i) & language::kBackgroundModifier) != 0 &&
+          node_state.presence == Presence::kBackground;
       const bool carried_on = !own_background && parent.keeps_highlighted;
       const bool in_leaf = is_leaf_of_either(parent.kind);
       if (own_background && !in_leaf) resolved_.background.push_back(i);
       if (node_state.highlighted && !carried_on && !in_leaf &&
           highlight_ends.size() < kMostNestedHighlights) {
         resolved_.highlight.push_back(i);
-        highlight_ends.push_back(node.subtree_end);
+        highlight_ends.push_back(node.end);
       }
-      parents.push_back({node.subtree_end, node.kind, node_state.keeps_highlighted});
+      parents.push_back({node.end, node.kind, node_state.keeps_highlighted});
       ++i;
     }
   }
 
-  const SyntaxTree& tree_;
+  const NodeTree& tree_;
   NodeRange selected_;
   std::span<const LeafState> leaves_;
   ResolvedModifiers resolved_;
@@ -171,7 +170,7 @@ class ModifierResolver {
 
 }  // namespace
 
-ResolvedModifiers resolve_modifiers(const SyntaxTree& tree, NodeRange selected,
+ResolvedModifiers resolve_modifiers(const NodeTree& tree, NodeRange selected,
                                     std::span<const LeafState> leaves) {
   return ModifierResolver(tree, selected, leaves).find();
 }

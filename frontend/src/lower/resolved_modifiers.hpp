@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "csgcore/geometry.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 
 namespace frontend {
 
@@ -41,11 +41,17 @@ struct ResolvedModifiers {
   bool keeps_highlighted = false;    // as in ResolvedNode, for the file's top level
 };
 
-/// The nodes that `!` leaves: the subtree of the first one that is not inside `*`, or all.
+/// The nodes that `!` leaves: the subtree of the first one that has it, or all.
 struct NodeRange {
   uint32_t begin = 0;
   uint32_t end = 0;
+  bool is_root = false;  // `!` selects it
 };
+
+/// Returns a node's CallModifiers. The one that `!` selects has lost all of its own.
+inline uint8_t modifiers_of(const NodeTree& tree, const NodeRange& selected, uint32_t node) {
+  return selected.is_root && node == selected.begin ? uint8_t{0} : tree.nodes[node].modifiers;
+}
 
 /// A node without children, or one that is taken as a whole.
 struct LeafState {
@@ -56,7 +62,7 @@ struct LeafState {
 
 /// `leaves` has the state of each node without children, of each that is taken as a whole, and of
 /// each that cannot be drawn, whose children are not looked at either.
-ResolvedModifiers resolve_modifiers(const SyntaxTree& tree, NodeRange selected,
+ResolvedModifiers resolve_modifiers(const NodeTree& tree, NodeRange selected,
                                     std::span<const LeafState> leaves);
 
 }  // namespace frontend

@@ -46,7 +46,7 @@ csgcore::Affine leaning(const LinearExtrudeArguments& arguments) {
 }
 
 std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
-                                                const SyntaxNode& node,
+                                                const Node& node,
                                                 std::span<const Figure> figures,
                                                 NodeProblems& problems) {
   const LinearExtrudeArguments& given = data.arguments;

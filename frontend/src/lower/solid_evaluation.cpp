@@ -101,7 +101,7 @@ std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
 std::vector<uint32_t> SolidEvaluation::solid_nodes(uint32_t root) const {
   std::vector<uint32_t> result{root};
   for (uint32_t i = root + 1; i < subtree_.end_of(root);) {
-    if (!subtree_.is_taken(i) || subtree_.syntax(i).kind == NodeKind::kProjection) {
+    if (subtree_.syntax(i).kind == NodeKind::kProjection) {
       i = subtree_.end_of(i);
       continue;
     }
@@ -210,7 +210,7 @@ SolidValue SolidEvaluation::round_solid(const RoundNode& round) {
 }
 
 const SolidOfFaces* SolidEvaluation::solid_of_file(uint32_t node) {
-  const SyntaxNode& syntax = subtree_.syntax(node);
+  const Node& syntax = subtree_.syntax(node);
   const FileArguments& arguments = std::get<FileArguments>(subtree_.solid(node));
   const ImportedFile& file = syntax.kind == NodeKind::kSurface ? sources_.files.surface(arguments)
                                                                : sources_.files.import(arguments);

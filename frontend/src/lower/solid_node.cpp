@@ -6,7 +6,7 @@
 
 namespace frontend {
 
-SolidNode read_solid_node(const SyntaxTree& tree, const SyntaxNode& node,
+SolidNode read_solid_node(const NodeTree& tree, const Node& node,
                           const ImportOptions& options, NodeProblems& problems) {
   switch (node.kind) {
     case NodeKind::kSphere:

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "frontend/syntax_tree.hpp"
+#include "frontend/design_tree.hpp"
 #include "heal/matrix_healing.hpp"
 
 namespace frontend {
@@ -12,6 +12,6 @@ namespace frontend {
 /// Returns the identity, with what the typed numbers of a node and its descendants may be off by as
 /// its errors: as if a matrix had moved and scaled the node by as much. Exact if there are none.
 /// `tree` must have the arguments still.
-HealedMatrix typed_numbers(const SyntaxTree& tree, uint32_t node);
+HealedMatrix typed_numbers(const NodeTree& tree, uint32_t node);
 
 }  // namespace frontend

@@ -14,7 +14,7 @@ namespace {
 
 /// Returns what the user should know of the time of such a design; empty: nothing.
 const char* limit_of_time(const State& state) {
-  if (!state.version || !state.version->design || state.version->texts.evaluation) return "";
+  if (!state.version || !state.version->design || state.version->source.evaluation) return "";
   return state.version->parameters ? "openscad evaluates: variables of the top level do not know $t"
                                    : "a .csg has no time";
 }

@@ -218,13 +218,13 @@ TEST_P(Follow, ASaveThatChangesNothingSaysSo) {
   const DesignVersion first = design.next_of(2);
   EXPECT_FALSE(first.unchanged);
   EXPECT_EQ(first.number, 1u);
-  EXPECT_EQ(first.nodes, 2u);
-  EXPECT_EQ(first.texts.csg->view(), spheres(2));
+  EXPECT_EQ(first.source.tree.nodes->size(), 2u);
+  EXPECT_EQ((*first.source.tree.files)[0].text, spheres(2));
   fs::rename(folder_.write("new", spheres(2)), folder_ / "a.csg");
   const DesignVersion second = design.next();
   EXPECT_TRUE(second.unchanged);
   EXPECT_EQ(second.design, first.design);
-  EXPECT_EQ(second.nodes, 2u);
+  EXPECT_EQ(second.source.tree.nodes->size(), 2u);
   folder_.write("a.csg", "sphere(");
   EXPECT_FALSE(design.next_error().unchanged);
   folder_.write("a.csg", spheres(2));

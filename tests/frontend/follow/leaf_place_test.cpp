@@ -3,10 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include <memory>
 #include <string>
 
-#include "csg/evaluated_tree.hpp"
 #include "csg/node_label.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
@@ -23,13 +21,9 @@ class LeafPlaceTest : public testing::Test {
   /// Evaluates a design, and returns the leaf of a primitive of it.
   LeafPlace place(const std::string& scad, std::size_t primitive = 0) {
     const std::string path = folder_.write("a.scad", scad);
-    auto evaluation = std::make_shared<const language::Evaluation>(
-        language::evaluate(path, {}, [](std::string_view) {}));
-    const ImportedDesign design =
-        import_design(tree_of(*evaluation->tree, *evaluation->files, path), {.keeps_places = true});
-    DesignTexts texts;
-    texts.evaluation = std::move(evaluation);
-    return leaf_place(texts, design.places.at(design.scene.primitives.at(primitive).id));
+    const DesignTree tree = tree_of(language::evaluate(path, {}, [](std::string_view) {}), path);
+    const ImportedDesign design = import_design(tree, {.keeps_places = true});
+    return leaf_place(tree, design.places.at(design.scene.primitives.at(primitive).id));
   }
   /// Returns the steps of that leaf's trail.
   std::vector<std::string> trail(const std::string& scad, std::size_t primitive = 0) {
@@ -121,36 +115,30 @@ TEST_F(LeafPlaceTest, CallsAreShownAsTheyAreSpelled) {
 }
 
 TEST(LeafPlace, OfTheStandardInputCannotBeOpened) {
-  DesignTexts texts;
-  texts.evaluation = std::make_shared<const language::Evaluation>(language::evaluate(
-      "-", {}, [](std::string_view) {}, "\n cube(1);"));
-  const LeafPlace found = leaf_place(texts, PrimitivePlace{0, 2, 2, 0});
+  const DesignTree tree = tree_of(language::evaluate(
+                                      "-", {}, [](std::string_view) {}, "\n cube(1);"),
+                                  "-");
+  const LeafPlace found = leaf_place(tree, 0);
   EXPECT_EQ(text_of(found.step().place), "<stdin>:2:2");
   EXPECT_EQ(found.step().place.path, "");
 }
 
 /// The design has no other text then.
 TEST(LeafPlace, OfACsgIsInTheCsg) {
-  const std::string csg = "group() {\n\tsphere($fn = 0, $fa = 12, $fs = 2, r = 10);\n}\n}} (";
-  std::unique_ptr<char[]> bytes(new char[csg.size()]);
-  std::copy(csg.begin(), csg.end(), bytes.get());
-  DesignTexts texts;
-  texts.csg = std::make_shared<const FileText>(std::move(bytes), csg.size());
-  texts.csg_path = "/folder/b.csg";
-  const PrimitivePlace place{1, 2, static_cast<uint32_t>(csg.find("sphere")), 0};
-  const LeafPlace found = leaf_place(texts, place);
+  const FileText csg("group() {\n\tsphere($fn = 0, $fa = 12, $fs = 2, r = 10);\n}\n");
+  const LeafPlace found = leaf_place(parse(csg, "b.csg", "/folder/b.csg"), 1);
   ASSERT_EQ(found.trail.size(), 1u);
   EXPECT_EQ(found.step().what, "sphere(r = 10)");
   EXPECT_EQ(text_of(found.step().place), "b.csg:2:2");
   EXPECT_EQ(found.step().place.path, "/folder/b.csg");
-  texts.csg_path.clear();  // openscad has made it
-  EXPECT_EQ(leaf_place(texts, place).step().place.path, "");
-  EXPECT_EQ(text_of(leaf_place(texts, place).step().place), ".csg:2:2");
+  const LeafPlace exported = leaf_place(parse(csg, "b.csg"), 1);  // openscad has made it
+  EXPECT_EQ(exported.step().place.path, "");
+  EXPECT_EQ(text_of(exported.step().place), ".csg:2:2");
 }
 
 std::string label(const std::string& csg) {
-  const SyntaxTree tree = parse(csg, "");
-  return label_of(tree, tree.nodes.front());
+  const DesignTree tree = parse(csg, "");
+  return label_of(*tree.nodes, tree.nodes->nodes[0]);
 }
 
 TEST(NodeLabel, TellsTheSize) {

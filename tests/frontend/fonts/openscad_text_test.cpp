@@ -65,12 +65,12 @@ Polygons openscad_outlines(const TemporaryFolder& folder, const std::string& csg
 
 /// The outlines of the .csg's only node, which is a text, in OpenSCAD's facets.
 Polygons own_outlines(const std::string& csg) {
-  const SyntaxTree tree = parse(csg, "text.csg");
+  const DesignTree tree = parse(csg, "text.csg");
   DesignFonts fonts({});
   PolyhedronPool polyhedra(false, false);
   FileImports files({}, polyhedra);
   NodeProblems problems;
-  PlaneSubtree subtree(tree, 0);
+  PlaneSubtree subtree(*tree.nodes, 0);
   subtree.take(0, 0, {.facets = Facets::kAll}, {fonts, files}, problems);
   std::vector<Figure> letters;
   for (const PlacedGlyph& letter : subtree.data<TextNode>(0).letters) {

@@ -328,7 +328,7 @@ TEST(HealingFeatures, CylinderRadiusOfAScaledFrame) {
 
 TEST(HealingFeatures, LiteralDifferencesStay) {
   const auto expect_untouched = [](const std::string& text) {
-    const SyntaxTree tree = parse(text, "a.csg");
+    const DesignTree tree = parse(text, "a.csg");
     for (const Primitive& primitive : import_design(tree).scene.primitives) {
       const Mat3& map = primitive.local_to_world.linear;
       EXPECT_LT(unorthogonality(map), 1e-15) << text;

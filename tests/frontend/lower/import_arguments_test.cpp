@@ -152,13 +152,13 @@ TEST(ImporterPrimitives, InvalidOnesAreTheEmptySetButCount) {
   }
 }
 
-TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeOfTheFile) {
+TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeButDisabledOnes) {
   const ImportedDesign design = import_text(
       "polygon(); *sphere(); roof() { sphere(); circle(); } sphere(0); %sphere(); sphere(); "
       "text();");
-  EXPECT_EQ(design.primitive_nodes, 8u);
-  EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "6");
-  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kBackground), "5");
+  EXPECT_EQ(design.primitive_nodes, 7u);
+  EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "5");
+  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kBackground), "4");
 }
 
 TEST(ImporterPrimitives, OfExtremeSizesDoNoHarm) {

@@ -501,7 +501,7 @@ TEST(PlaneImport, IgnoresModifiersInside) {
   EXPECT_EQ(trees_of("%" + extruded("circle(1); square(2);") + "cube();"), "2 | (0+1) | -");
   EXPECT_EQ(trees_of(extruded("circle(1); !square(2);")), "1 | - | -");
   EXPECT_EQ(trees_of(extruded("circle(1); *square(2);")), "0 | - | -");
-  EXPECT_EQ(trees_of(extruded("*hull() { offset() { circle(1); } } square(2);")), "1 | - | -");
+  EXPECT_EQ(trees_of(extruded("*hull() { offset() { circle(1); } } square(2);")), "0 | - | -");
 }
 
 /// Solids keep places of their own in render(), whose surfaces are theirs.
@@ -509,19 +509,13 @@ TEST(PlaneImport, APlaceIsThatOfTheNodeThatMakesTheSurface) {
   const std::string text =
       "circle(1);\nlinear_extrude(height = 1) { hull() { square(1); } }\n"
       "render() { hull() { circle(2); } }\nrender() { cube(); hull() { %sphere(); cube(); } }";
-  const ImportedDesign design = import_design(parse(text, "a.csg"), {.keeps_places = true});
-  ASSERT_THAT(design.places, SizeIs(6));
-  EXPECT_EQ(design.places[0].offset, 0u);
-  EXPECT_EQ(design.places[0].node, 0u);
-  EXPECT_EQ(design.places[1].line, 2u);
-  EXPECT_EQ(design.places[1].offset, text.find("linear_extrude"));
-  EXPECT_EQ(design.places[1].node, 1u);
-  EXPECT_EQ(design.places[2].offset, text.find("render"));
-  EXPECT_EQ(design.places[2].node, 4u);
-  EXPECT_EQ(design.places[3].offset, text.find("cube"));
-  EXPECT_EQ(design.places[3].node, 8u);
-  EXPECT_EQ(design.places[4].offset, text.rfind("hull"));
-  EXPECT_EQ(design.places[5].offset, text.rfind("cube"));
+  const DesignTree tree = parse(text, "a.csg");
+  const ImportedDesign design = import_design(tree, {.keeps_places = true});
+  std::vector<size_t> offsets;
+  for (const uint32_t node : design.places) offsets.push_back(tree.nodes->nodes[node].place.offset);
+  EXPECT_THAT(offsets, testing::ElementsAre(0u, text.find("linear_extrude"), text.find("render"),
+                                            text.find("cube"), text.rfind("hull"),
+                                            text.rfind("cube")));
 }
 
 TEST(PlaneImport, ForgetsColoursInside) {

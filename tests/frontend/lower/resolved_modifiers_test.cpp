@@ -107,11 +107,11 @@ TEST(ImporterModifiers, AnIntersectionOfDisjointBoxesKeepsItsHighlightedOperands
 }
 
 TEST(ImporterModifiers, RootAndDisable) {
-  EXPECT_EQ(model_of("sphere(); *sphere(); sphere();"), "(0+2)");
-  EXPECT_EQ(model_of("difference() { *sphere(); sphere(); sphere(); }"), "(1-2)");
+  EXPECT_EQ(model_of("sphere(); *sphere(); sphere();"), "(0+1)");
+  EXPECT_EQ(model_of("difference() { *sphere(); sphere(); sphere(); }"), "(0-1)");
   EXPECT_EQ(model_of("sphere(); group() { sphere(); !sphere(); }"), "2");
-  EXPECT_EQ(model_of("*group() { !sphere(); } sphere();"), "1");
-  EXPECT_EQ(model_of("!*sphere(); sphere();"), "1");
+  EXPECT_EQ(model_of("*group() { !sphere(); } sphere();"), "0");
+  EXPECT_EQ(model_of("!*sphere(); sphere();"), "0");
   // The new root loses its place and its colour.
   EXPECT_EQ(only_primitive("multmatrix([[1,0,0,3]]) { color([1,0,0]) { !sphere(); } }")
                 .local_to_world.translation,

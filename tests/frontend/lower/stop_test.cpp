@@ -46,7 +46,7 @@ double seconds(clockid_t clock) {
 /// Asks an import to stop after so much of its processor time. Returns how much more it takes, or
 /// −1 if it ends by itself.
 double seconds_after_stop(const std::string& text, double before_s) {
-  const SyntaxTree tree = parse(text, "");
+  const DesignTree tree = parse(text, "");
   std::stop_source stop;
   double ended_s = 0;
   bool is_stopped = false;

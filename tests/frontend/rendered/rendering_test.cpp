@@ -399,7 +399,7 @@ TEST_F(RenderCacheTest, MayBeUsedBySeveralAtOnce) {
 
 std::string text_of(const std::string& design, const ImportOptions& options = {},
                     bool is_plane = false) {
-  return render_request(parse(design, "a.csg"), 0, is_plane, options, {}).text;
+  return render_request(*parse(design, "a.csg").nodes, 0, is_plane, options, {}).text;
 }
 
 TEST(RenderText, SaysTheSameOfTheSameGeometry) {

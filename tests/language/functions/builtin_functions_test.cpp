@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"
 

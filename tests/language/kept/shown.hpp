@@ -27,7 +27,7 @@ inline Lines places_of(const Evaluation& evaluation) {
     places.push_back(
         files[node.place.file].path + ":" + std::to_string(files.message_line(node.place)) + ":" +
         std::to_string(files.line(node.place)) + ":" + std::to_string(files.column(node.place)) +
-        ":" + std::to_string(node.place.offset) + " " + std::string(node.name));
+        ":" + std::to_string(node.place.offset) + " " + std::string(name_of(node.kind)));
   }
   return places;
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language {
 namespace {
@@ -15,11 +15,11 @@ constexpr std::array<double, 3> kSizes = {1, 2, 3};
 /// Returns two nodes, the second of which is a child of the first.
 NodeTree tree_of_two(double radius = 4, uint32_t offset = 7) {
   NodeTree tree;
-  const uint32_t cube = tree.open("cube", 0, {0, 3});
+  const uint32_t cube = tree.open(NodeKind::kCube, 0, {0, 3});
   tree.add("size", kSizes, ArgumentStyle::kGeneral);
-  const uint32_t sphere = tree.open("sphere", kHighlightModifier, {0, offset});
+  const uint32_t sphere = tree.open(NodeKind::kSphere, kHighlightModifier, {0, offset});
   tree.add("r", radius, ArgumentStyle::kGeneral);
-  tree.add("also", kSizes, ArgumentStyle::kGeneral);
+  tree.add("origin", kSizes, ArgumentStyle::kGeneral);
   tree.close(sphere);
   tree.close(cube);
   return tree;
@@ -28,20 +28,22 @@ NodeTree tree_of_two(double radius = 4, uint32_t offset = 7) {
 TEST(NodeTree, KeepsArgumentsApart) {
   const NodeTree tree = tree_of_two();
   EXPECT_EQ(tree.nodes[0].end, 2u);
-  ASSERT_EQ(tree.arguments_of(0).size(), 1u);
-  ASSERT_EQ(tree.arguments_of(1).size(), 2u);
-  EXPECT_EQ(tree.numbers_of(tree.arguments_of(0)[0])[2], 3);
-  EXPECT_EQ(tree.arguments_of(1)[0].value.number(), 4);
-  EXPECT_TRUE(tree.numbers_of(tree.arguments_of(1)[0]).empty());
+  ASSERT_EQ(tree.arguments_of(tree.nodes[0]).size(), 1u);
+  ASSERT_EQ(tree.arguments_of(tree.nodes[1]).size(), 2u);
+  EXPECT_EQ(tree.numbers_of(tree.arguments_of(tree.nodes[0])[0])[2], 3);
+  EXPECT_EQ(tree.arguments_of(tree.nodes[1])[0].value.number(), 4);
+  EXPECT_TRUE(tree.numbers_of(tree.arguments_of(tree.nodes[1])[0]).empty());
 }
 
-TEST(NodeTree, RemovesTheLastNodeAsAWhole) {
+TEST(NodeTree, RemovesNodesWithWhatTheyHave) {
   NodeTree tree = tree_of_two();
-  tree.remove_last();
+  tree.remove(1);
   EXPECT_EQ(tree.size(), 1u);
   EXPECT_EQ(tree.arguments.size(), 1u);
   EXPECT_EQ(tree.numbers.size(), 3u);
-  EXPECT_EQ(tree.arguments_of(0).size(), 1u);
+  EXPECT_EQ(tree.arguments_of(tree.nodes[0]).size(), 1u);
+  tree.remove(0);
+  EXPECT_EQ(tree.size() + tree.arguments.size() + tree.numbers.size(), 0u);
 }
 
 TEST(NodeTree, TellsTreesApart) {
@@ -56,11 +58,11 @@ TEST(NodeTree, TellsTreesApart) {
 TEST(NodeTree, FindsRootModifiers) {
   NodeTree tree = tree_of_two();
   EXPECT_FALSE(root_modifiers(tree).shown);
-  tree.close(tree.open("cube", kRootModifier, {0, 20}));
-  tree.close(tree.open("cube", kRootModifier, {0, 20}));
+  tree.close(tree.open(NodeKind::kCube, kRootModifier, {0, 20}));
+  tree.close(tree.open(NodeKind::kCube, kRootModifier, {0, 20}));
   EXPECT_EQ(root_modifiers(tree).shown, 2u);
   EXPECT_FALSE(root_modifiers(tree).other) << "both stem from one call";
-  tree.close(tree.open("cube", kRootModifier, {0, 30}));
+  tree.close(tree.open(NodeKind::kCube, kRootModifier, {0, 30}));
   EXPECT_EQ(root_modifiers(tree).other, (Place{0, 30}));
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "values/function_object.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/operators.hpp"
 #include "values/range.hpp"

@@ -100,7 +100,7 @@ Lines places_of(const language::Evaluation& evaluation) {
   const language::SourceFiles& files = *evaluation.files;
   Lines places;
   for (const language::Node& node : evaluation.tree->nodes) {
-    std::string place = std::string(node.name) + (node.is_module_call ? " called at " : " at ");
+    std::string place = std::string(name_of(node.kind)) + (node.is_module_call ? " called at " : " at ");
     if (node.place.file != language::kNoFile && files.has(node.place.file)) {
       place += files[node.place.file].path + ":" + std::to_string(files.line(node.place)) + ":" +
                std::to_string(files.column(node.place));
@@ -147,9 +147,8 @@ void expect_same_version(const DesignVersion& kept, const DesignVersion& fresh) 
   }
   if (!kept.error.empty() || !fresh.error.empty()) return;
   EXPECT_EQ(kept.camera, fresh.camera);
-  EXPECT_EQ(kept.nodes, fresh.nodes);
-  const language::Evaluation& kept_tree = *kept.texts.evaluation;
-  const language::Evaluation& fresh_tree = *fresh.texts.evaluation;
+  const language::Evaluation& kept_tree = *kept.source.evaluation;
+  const language::Evaluation& fresh_tree = *fresh.source.evaluation;
   EXPECT_EQ(language::csg_text(*kept_tree.tree), language::csg_text(*fresh_tree.tree));
   EXPECT_EQ(places_of(kept_tree), places_of(fresh_tree));
   EXPECT_EQ(kept_tree.files_read, fresh_tree.files_read);
@@ -274,8 +273,9 @@ class Edits {
   /// Returns false if the design is too large.
   bool compare() {
     const DesignVersion fresh = read_fresh(path(), options_, design_.inputs());
-    const bool is_large = fresh.nodes > kMostNodes ||
-                          (fresh.design && fresh.design->scene.primitives.size() > kMostPrimitives);
+    const bool is_large =
+        fresh.design && (fresh.source.tree.nodes->size() > kMostNodes ||
+                         fresh.design->scene.primitives.size() > kMostPrimitives);
     if (is_large) return false;
     const DesignVersion kept = follower_.read(design_.inputs());
     expect_same_version(kept, fresh);
@@ -297,7 +297,7 @@ class Edits {
                    look_.order(version, Technique::kTiles),
                    {24.5, 18.5},
                    0,
-                   version.texts};
+                   version.source.tree};
     };
     expect_same_finding(tiles_, probe(kept), probe(fresh));
   }

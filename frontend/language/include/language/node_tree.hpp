@@ -1,14 +1,14 @@
-// The tree of nodes that a design evaluates to: what OpenSCAD writes as .csg.
+// The tree of nodes that a design evaluates to, or that a .csg holds.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "language/call_modifier.hpp"
 #include "language/growing_array.hpp"
+#include "language/node_kind.hpp"
 #include "language/place.hpp"
 #include "language/value.hpp"
 
@@ -26,21 +26,23 @@ enum class ArgumentStyle : uint8_t {
 };
 
 struct NodeArgument {
-  std::string_view name;  // static storage; empty: positional
-  Value value;            // in full double precision; undef if numbers stand in its place
+  ArgumentName name;
   ArgumentStyle style = ArgumentStyle::kGeneral;
-  uint8_t number_count = 0;  // not 0: the argument is that many of the tree's numbers
+  uint16_t number_count = 0;  // not 0: the argument is that many of the tree's numbers
   uint32_t first_number = 0;
+  Value value{};  // undef if numbers stand in its place
 };
+static_assert(sizeof(NodeArgument) == 24);
 
 struct Node {
-  std::string_view name;  // as .csg spells it, static storage: "cube", "group"
-  Place place;            // of the module call that made it
+  Place place;                  // of the module call that made it; in a .csg, of its name
   uint32_t first_argument = 0;
   uint32_t end = 0;             // index behind its last descendant
+  NodeKind kind = NodeKind::kGroup;
   uint8_t modifiers = 0;        // CallModifier
   bool is_module_call = false;  // of a module that the design itself defines
 };
+static_assert(sizeof(Node) == 20);
 
 /// Nodes in preorder: the first child of node i is i + 1, the sibling behind child c is
 /// nodes[c].end, and the last child's end is nodes[i].end. The design's top-level nodes begin at 0.
@@ -50,13 +52,14 @@ struct NodeTree {
   GrowingArray<Node> nodes;
   GrowingArray<NodeArgument> arguments;
   GrowingArray<double> numbers;
+  /// Whether numbers are the design's own doubles. Those of a .csg have six digits.
+  bool has_all_digits = true;
 
-  /// Returns a node's arguments in the order in which .csg lists them.
-  std::span<const NodeArgument> arguments_of(uint32_t node) const {
-    const size_t first = nodes[node].first_argument;
-    const bool is_last = node + 1 == nodes.size();
-    return {arguments.data() + first,
-            (is_last ? arguments.size() : nodes[node + 1].first_argument) - first};
+  /// Returns the arguments of a node of this tree in the order in which .csg lists them.
+  std::span<const NodeArgument> arguments_of(const Node& node) const {
+    const bool is_last = &node == nodes.end() - 1;
+    const size_t end = is_last ? arguments.size() : (&node)[1].first_argument;
+    return {arguments.data() + node.first_argument, end - node.first_argument};
   }
   std::span<const double> numbers_of(const NodeArgument& argument) const {
     return {numbers.data() + argument.first_number, argument.number_count};
@@ -69,7 +72,7 @@ struct NodeTree {
   }
 
   /// Adds a node behind all others. Its end is not known yet.
-  uint32_t open(std::string_view name, uint8_t modifiers, Place place);
+  uint32_t open(NodeKind kind, uint8_t modifiers, Place place);
   /// All nodes behind it are its descendants.
   void close(uint32_t node) { nodes[node].end = size(); }
   /// Adds the nodes from `first` to before `end` of another tree behind all others, with copies of
@@ -77,12 +80,13 @@ struct NodeTree {
   /// subtrees. Returns whether all could be copied; if not, nothing is added.
   bool append(const NodeTree& from, uint32_t first, uint32_t end,
               const std::function<Place(Place)>& moved);
-  /// Removes the last node, which must have no descendants.
-  void remove_last();
+  /// Removes a node that is open, or the last that was closed, with its descendants.
+  void remove(uint32_t node);
   /// Adds an argument to the last node.
-  void add(std::string_view name, Value value, ArgumentStyle style);
-  /// The same with numbers in place of the value, of which there must be 1 to 255.
-  void add(std::string_view name, std::span<const double> values, ArgumentStyle style);
+  void add(ArgumentName name, Value value, ArgumentStyle style);
+  /// The same with numbers in place of the value, of which there must be 1 to kMostNumbers.
+  void add(ArgumentName name, std::span<const double> values, ArgumentStyle style);
+  static constexpr size_t kMostNumbers = 0xFFFF;
 };
 
 /// What a tree's root modifiers (!) ask for.

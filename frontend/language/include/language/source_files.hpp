@@ -19,10 +19,21 @@ class SourceFile {
   /// `text` is that of the file; of the main file and of used ones with what OpenSCAD appends (0x03
   /// and -D).
   SourceFile(std::string file_path, std::string file_text)
-      : path(std::move(file_path)), text(std::move(file_text)) {}
+      : path(std::move(file_path)), owned_text_(std::move(file_text)), text(owned_text_) {}
+  /// The same of a text in memory that somebody else shares. A path that is not absolute is a name.
+  SourceFile(std::string file_path, std::shared_ptr<const char[]> bytes, std::size_t size)
+      : path(std::move(file_path)), shared_text_(std::move(bytes)), text(shared_text_.get(), size) {}
+  SourceFile(const SourceFile&) = delete;
+  SourceFile& operator=(const SourceFile&) = delete;
 
   const std::string path;
-  const std::string text;
+
+ private:
+  const std::string owned_text_;
+  const std::shared_ptr<const char[]> shared_text_;
+
+ public:
+  const std::string_view text;
 
   /// Returns the path without links and dots on the way to the file, which may be a link itself.
   std::string canonical_path() const;

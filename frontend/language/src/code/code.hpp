@@ -12,6 +12,7 @@
 #include "code/instruction.hpp"
 #include "code/parameter_list.hpp"
 #include "code/scope_layout.hpp"
+#include "language/node_kind.hpp"
 #include "language/value.hpp"
 #include "syntax/syntax.hpp"
 
@@ -96,7 +97,7 @@ struct LazyCall {
 };
 
 struct NodeSite {
-  std::string_view name;  // static storage; empty: a builtin module makes the node
+  NodeKind kind = NodeKind::kGroup;  // where no builtin module makes the node
   uint32_t module = 0;    // of builtin_modules()
   uint8_t modifiers = 0;
   uint32_t parameters = 0;     // how many values kMakeNode pops

@@ -123,10 +123,10 @@ class CodeCompiler {
   void statement(const ModuleCall& call);
   bool special_statement(const ModuleCall& call);
   void if_statement(const ModuleCall& call);
-  void plain_node(const ModuleCall& call, std::string_view name);
+  void plain_node(const ModuleCall& call, NodeKind kind);
   void node_if_children(const ModuleCall& call);
-  uint32_t add_node_site(const ModuleCall& call, std::string_view name);
-  void begin_node(const ModuleCall& call, std::string_view name);
+  uint32_t add_node_site(const ModuleCall& call, NodeKind kind);
+  void begin_node(const ModuleCall& call, NodeKind kind);
   void end_node(const ModuleCall& call, bool drop_if_empty = false);
   bool assigns_dynamic(const Scope& scope) const;
 
@@ -139,7 +139,7 @@ class CodeCompiler {
   void children_call(const ModuleCall& call, bool is_child);
 
   // loops.cpp
-  void for_statement(const ModuleCall& call, std::string_view node);
+  void for_statement(const ModuleCall& call, NodeKind kind);
   void for_rounds(std::span<const Argument> sources, const ModuleCall& call);
   void let_statement(const ModuleCall& call);
   void assign_statement(const ModuleCall& call);

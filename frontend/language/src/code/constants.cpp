@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language {
 namespace {

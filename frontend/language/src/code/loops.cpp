@@ -3,8 +3,8 @@
 
 namespace language {
 
-void CodeCompiler::for_statement(const ModuleCall& call, std::string_view node) {
-  begin_node(call, node);
+void CodeCompiler::for_statement(const ModuleCall& call, NodeKind kind) {
+  begin_node(call, kind);
   if (!call.arguments.empty()) {
     ScopeLayout& scope = open_scope(true, call.place);
     const uint32_t open = out_.here() - 1;
@@ -47,7 +47,7 @@ void CodeCompiler::let_statement(const ModuleCall& call) {
   out_.emit(Op::kMarkTrail, call.place, 1);
   open_scope(true, call.place);
   let_arguments(call.arguments, true);
-  plain_node(call, "group");
+  plain_node(call, NodeKind::kGroup);
   close_scope(call.place);
   out_.emit(Op::kUndoTrail, call.place, 0, base);
   drop_to(base, call.place);
@@ -57,7 +57,7 @@ void CodeCompiler::let_statement(const ModuleCall& call) {
 // one counts.
 void CodeCompiler::assign_statement(const ModuleCall& call) {
   const uint32_t base = out_.depth();
-  out_.code().node_sites[add_node_site(call, "group")].successor = "a regular assignment";
+  out_.code().node_sites[add_node_site(call, NodeKind::kGroup)].successor = "a regular assignment";
   out_.emit(Op::kSuccessor, call.place, 0,
             static_cast<uint32_t>(out_.code().node_sites.size() - 1));
   out_.emit(Op::kMarkTrail, call.place, 1);
@@ -77,7 +77,7 @@ void CodeCompiler::assign_statement(const ModuleCall& call) {
     store(argument->name, argument->place);
   }
   set_scope_size(open, scope);
-  plain_node(call, "group");
+  plain_node(call, NodeKind::kGroup);
   close_scope(call.place);
   out_.emit(Op::kUndoTrail, call.place, 0, base);
   drop_to(base, call.place);

@@ -63,7 +63,7 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   const bool has_mark =
       names_dynamic(call.arguments, compiler_.names()) || (has_block && assigns_dynamic(children));
   if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
-  const uint32_t number = add_node_site(call, {});
+  const uint32_t number = add_node_site(call, NodeKind::kGroup);
   NodeSite& site = out_.code().node_sites[number];
   site.module = module.index;
   site.parameters = static_cast<uint32_t>(module.parameters.size());
@@ -134,7 +134,7 @@ void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
   // child() looks at its argument anywhere, children() within modules only.
   const uint32_t outside = is_child ? 0 : out_.emit(Op::kUnlessInModule, call.place, 0);
   if (call.arguments.empty() && !is_child) {
-    out_.emit(Op::kAllChildren, call.place, 0, add_node_site(call, "group"));
+    out_.emit(Op::kAllChildren, call.place, 0, add_node_site(call, NodeKind::kGroup));
     end_node(call);
     return out_.land(outside);
   }
@@ -145,7 +145,7 @@ void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
   }
   const uint32_t slot = out_.depth() - 1;
   const uint32_t none = out_.emit(Op::kSelectChildren, call.place, 2, 0,
-                                  add_node_site(call, "group"), is_child ? 1 : 0);
+                                  add_node_site(call, NodeKind::kGroup), is_child ? 1 : 0);
   const uint32_t next = out_.emit(Op::kNextChild, call.place, 0, 0, slot);
   out_.emit(Op::kJump, call.place, 0, next);
   out_.land(next);

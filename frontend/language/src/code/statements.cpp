@@ -137,9 +137,9 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
   const Compiler::KnownNames& known = compiler_.known();
   const Name name = call.name;
   if (name == known.for_) {
-    for_statement(call, "group");
+    for_statement(call, NodeKind::kGroup);
   } else if (name == known.intersection_for) {
-    for_statement(call, "intersection");
+    for_statement(call, NodeKind::kIntersection);
   } else if (name == known.let) {
     let_statement(call);
   } else if (name == known.assign) {
@@ -154,10 +154,10 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
     node_if_children(call);
   } else if (name == known.group || name == known.union_ || name == known.difference ||
              name == known.intersection) {
-    plain_node(call, name == known.union_         ? "union"
-                     : name == known.difference   ? "difference"
-                     : name == known.intersection ? "intersection"
-                                                  : "group");
+    plain_node(call, name == known.union_         ? NodeKind::kUnion
+                     : name == known.difference   ? NodeKind::kDifference
+                     : name == known.intersection ? NodeKind::kIntersection
+                                                  : NodeKind::kGroup);
   } else {
     return false;
   }
@@ -167,11 +167,11 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
 void CodeCompiler::if_statement(const ModuleCall& call) {
   const uint32_t region = begin_region();
   const uint32_t is_false = jump_if_false(*call.condition);
-  plain_node(call, "group");
+  plain_node(call, NodeKind::kGroup);
   if (call.else_children) {
     const uint32_t done = out_.emit(Op::kJump, call.place, 0);
     out_.land(is_false);
-    begin_node(call, "group");
+    begin_node(call, NodeKind::kGroup);
     block(*call.else_children);
     end_node(call);
     out_.land(done);
@@ -181,32 +181,32 @@ void CodeCompiler::if_statement(const ModuleCall& call) {
   out_.code().regions.push_back({region, out_.here(), "if", nullptr, call.place});
 }
 
-uint32_t CodeCompiler::add_node_site(const ModuleCall& call, std::string_view name) {
+uint32_t CodeCompiler::add_node_site(const ModuleCall& call, NodeKind kind) {
   auto& sites = out_.code().node_sites;
   NodeSite site;
-  site.name = name;
+  site.kind = kind;
   site.modifiers = call.modifiers;
   if (call.name != kNoName) site.call_name = compiler_.names().text(call.name);
   sites.push_back(site);
   return static_cast<uint32_t>(sites.size() - 1);
 }
 
-void CodeCompiler::begin_node(const ModuleCall& call, std::string_view name) {
-  out_.emit(Op::kBeginNode, call.place, 0, add_node_site(call, name));
+void CodeCompiler::begin_node(const ModuleCall& call, NodeKind kind) {
+  out_.emit(Op::kBeginNode, call.place, 0, add_node_site(call, kind));
 }
 
 void CodeCompiler::end_node(const ModuleCall& call, bool drop_if_empty) {
   out_.emit(Op::kEndNode, call.place, 0, 0, 0, drop_if_empty ? 1 : 0);
 }
 
-void CodeCompiler::plain_node(const ModuleCall& call, std::string_view name) {
-  begin_node(call, name);
+void CodeCompiler::plain_node(const ModuleCall& call, NodeKind kind) {
+  begin_node(call, kind);
   block(*call.children);
   end_node(call);
 }
 
 void CodeCompiler::node_if_children(const ModuleCall& call) {
-  begin_node(call, "group");
+  begin_node(call, NodeKind::kGroup);
   block(*call.children);
   end_node(call, true);
 }

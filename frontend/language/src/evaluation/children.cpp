@@ -3,7 +3,7 @@
 
 #include "base/work_meter.hpp"
 #include "evaluation/machine.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"
 

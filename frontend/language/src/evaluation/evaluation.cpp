@@ -11,7 +11,7 @@
 #include "evaluation/machine.hpp"
 #include "syntax/parameter_set.hpp"
 #include "syntax/parse_program.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/value_text.hpp"
 

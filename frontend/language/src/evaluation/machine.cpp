@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "code/constants.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/value_text.hpp"
 

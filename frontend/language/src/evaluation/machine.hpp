@@ -23,7 +23,7 @@
 #include "language/node_tree.hpp"
 #include "messages/messages.hpp"
 #include "modules/builtin_modules.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/operators.hpp"
 
 namespace language {
@@ -183,8 +183,8 @@ class Machine {
   void save_unit(uint32_t unit, KeptTops& tops);
 
   // modules.cpp
-  void begin_node(const NodeSite& site) { begin_node(site.name, site.modifiers); }
-  void begin_node(std::string_view name, uint8_t modifiers);
+  void begin_node(const NodeSite& site) { begin_node(site.kind, site.modifiers); }
+  void begin_node(NodeKind kind, uint8_t modifiers);
   void end_node(bool drop_if_empty);
   void make_node(const NodeSite& site, uint32_t no_children, bool takes_children);
   bool wants_first(const NodeSite& site);

@@ -3,15 +3,15 @@
 
 namespace language {
 
-void Machine::begin_node(std::string_view name, uint8_t modifiers) {
-  open_nodes_.push_back(tree_.open(name, modifiers, place()));
+void Machine::begin_node(NodeKind kind, uint8_t modifiers) {
+  open_nodes_.push_back(tree_.open(kind, modifiers, place()));
 }
 
 void Machine::end_node(bool drop_if_empty) {
   const uint32_t node = open_nodes_.back();
   open_nodes_.pop_back();
   tree_.close(node);
-  if (drop_if_empty && tree_.nodes[node].end == node + 1) tree_.remove_last();
+  if (drop_if_empty && tree_.nodes[node].end == node + 1) tree_.remove(node);
 }
 
 BuiltinCall Machine::builtin_call(const NodeSite& site, bool has_first) {
@@ -38,13 +38,13 @@ Value Machine::dynamic_value(Name name) {
 
 void Machine::make_node(const NodeSite& site, uint32_t no_children, bool takes_children) {
   count_step();
-  begin_node({}, site.modifiers);
+  begin_node(NodeKind::kGroup, site.modifiers);
   const Made made = builtin_modules_[site.module].make(builtin_call(site, true), tree_);
   stack_.drop_to(stack_.size() - site.parameters - 1);
   if (made == Made::kNode && takes_children) return;
   next_ = no_children;
   end_node(false);
-  if (made == Made::kNothing) tree_.remove_last();
+  if (made == Made::kNothing) tree_.remove(tree_.size() - 1);
 }
 
 void Machine::refuse_children(const NodeSite& site) {
@@ -84,7 +84,7 @@ void Machine::call_module(const CallSite& site) {
     block_scopes_.pop_back();
   }
   HeapScope* const scope = take_scope(site);
-  begin_node("group", site.modifiers);
+  begin_node(NodeKind::kGroup, site.modifiers);
   tree_.nodes[open_nodes_.back()].is_module_call = true;
   if (keeps_calls_ && is_kept(site, scope) && begin_kept_call(site)) {
     HeapScopes::release(scope);

@@ -2,7 +2,7 @@
 #include "base/utf8.hpp"
 #include "base/work_meter.hpp"
 #include "evaluation/machine.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/range.hpp"
 
 namespace language {

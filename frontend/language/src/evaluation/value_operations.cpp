@@ -4,7 +4,7 @@
 #include "evaluation/machine.hpp"
 #include "evaluation/operation_limit.hpp"
 #include "syntax/expression_text.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"

@@ -11,7 +11,7 @@
 #include "language/degrees.hpp"
 #include "language/dxf.hpp"
 #include "language/dxf_chains.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/value_text.hpp"
 
 namespace language::functions {

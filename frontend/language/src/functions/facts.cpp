@@ -4,7 +4,7 @@
 #include <string>
 
 #include "functions/functions.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language::functions {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/work_meter.hpp"
 #include "functions/functions.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language::functions {
 namespace {

@@ -5,7 +5,7 @@
 #include "base/utf8.hpp"
 #include "base/work_meter.hpp"
 #include "functions/functions.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/operators.hpp"
 #include "values/value_text.hpp"
 

@@ -7,7 +7,7 @@
 #include "base/utf8.hpp"
 #include "base/work_meter.hpp"
 #include "functions/functions.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"

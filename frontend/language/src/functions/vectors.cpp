@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "functions/functions.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language::functions {
 namespace {

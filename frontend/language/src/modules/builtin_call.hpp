@@ -53,7 +53,7 @@ struct BuiltinModule {
   std::span<const std::string_view> positional;  // declared parameters, in order
   std::span<const std::string_view> named_only;
   ChildRule children;
-  /// Fills in the name and the arguments of the tree's last node, and says what is wrong with them.
+  /// Fills in the kind and the arguments of the tree's last node, and says what is wrong with them.
   Made (*make)(const BuiltinCall& call, NodeTree& tree);
   /// What to use instead of a deprecated module: "linear_extrude()"; empty if it is not deprecated.
   /// Said before the arguments are evaluated.

@@ -54,7 +54,7 @@ Rgba color_of_text(const BuiltinCall& call, std::string_view name) {
 Made make_color(const BuiltinCall& call, NodeTree& tree) {
   const Value& c = call.parameters[0];
   const Value& alpha = call.parameters[1];
-  set_name(tree, "color");
+  set_kind(tree, NodeKind::kColor);
   Rgba color = kNoColor;
   if (c.is_vector()) color = color_of_vector(call, c.elements());
   if (c.is_string()) color = color_of_text(call, c.text());

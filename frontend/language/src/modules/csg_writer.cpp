@@ -95,12 +95,12 @@ void append_head(std::string& out, const NodeTree& tree, uint32_t index, size_t 
   if (!is_root && (node.modifiers & kBackgroundModifier) != 0) out += '%';
   if (!is_root && (node.modifiers & kHighlightModifier) != 0) out += '#';
   out.append(depth, '\t');
-  out += node.name;
+  out += name_of(node.kind);
   out += '(';
   std::string_view before;
-  for (const NodeArgument& argument : tree.arguments_of(index)) {
+  for (const NodeArgument& argument : tree.arguments_of(node)) {
     out += std::exchange(before, ", ");
-    if (!argument.name.empty()) out.append(argument.name).append(" = ");
+    if (!argument.name.is_positional()) out.append(argument.name.text()).append(" = ");
     append_value(out, tree, argument);
   }
   out += ')';

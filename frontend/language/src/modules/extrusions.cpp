@@ -87,7 +87,7 @@ bool wants_height(const BuiltinCall& call) {
 
 Made make_linear_extrude(const BuiltinCall& call, NodeTree& tree) {
   const auto& given = call.parameters;
-  set_name(tree, "linear_extrude");
+  set_kind(tree, NodeKind::kLinearExtrude);
   const std::string name(text_or(given[linear::kFile], ""));
   if (given[linear::kFile].is_string()) note_file(call, "linear_extrude");
   double x = 0, y = 0;
@@ -115,7 +115,7 @@ enum Parameter : size_t { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
 
 Made make_rotate_extrude(const BuiltinCall& call, NodeTree& tree) {
   const auto& given = call.parameters;
-  set_name(tree, "rotate_extrude");
+  set_kind(tree, NodeKind::kRotateExtrude);
   const std::string name = str_or_nothing(given[rotated::kFile]);
   if (is_given(given[rotated::kFile])) note_file(call, "rotate_extrude");
   double x = 0, y = 0;

@@ -63,7 +63,7 @@ Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
     kDpi
   };
   const auto& given = call.parameters;
-  set_name(tree, "import");
+  set_kind(tree, NodeKind::kImport);
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
   const NamedFile file = call.environment.files.find(name);
   const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
@@ -101,7 +101,7 @@ Made make_typed_import(const BuiltinCall& call, NodeTree& tree) {
 Made make_surface(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kFile, kCenter, kConvexity, kInvert };
   const auto& given = call.parameters;
-  set_name(tree, "surface");
+  set_kind(tree, NodeKind::kSurface);
   const NamedFile file = call.environment.files.find(str_or_nothing(given[kFile]));
   add_escaped(tree, "file", file.path);
   add_bool(tree, "center", is_true_bool(given[kCenter]));

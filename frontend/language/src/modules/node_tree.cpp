@@ -8,31 +8,28 @@
 
 namespace language {
 
-uint32_t NodeTree::open(std::string_view name, uint8_t modifiers, Place place) {
-  nodes.push_back({name, place, static_cast<uint32_t>(arguments.size()), 0, modifiers});
+uint32_t NodeTree::open(NodeKind kind, uint8_t modifiers, Place place) {
+  nodes.push_back({place, static_cast<uint32_t>(arguments.size()), 0, kind, modifiers});
   return size() - 1;
 }
 
-void NodeTree::remove_last() {
-  for (const NodeArgument& argument : arguments_of(size() - 1)) {
-    if (argument.number_count == 0) continue;
-    numbers.truncate(argument.first_number);
-    break;
-  }
-  arguments.truncate(nodes.back().first_argument);
-  nodes.truncate(size() - 1);
+void NodeTree::remove(uint32_t node) {
+  const uint32_t first = nodes[node].first_argument;
+  const auto with_numbers =
+      std::find_if(arguments.begin() + first, arguments.end(),
+                   [](const NodeArgument& argument) { return argument.number_count > 0; });
+  if (with_numbers != arguments.end()) numbers.truncate(with_numbers->first_number);
+  arguments.truncate(first);
+  nodes.truncate(node);
 }
 
-void NodeTree::add(std::string_view name, Value value, ArgumentStyle style) {
-  arguments.push_back({name, std::move(value), style});
+void NodeTree::add(ArgumentName name, Value value, ArgumentStyle style) {
+  arguments.push_back({name, style, 0, 0, std::move(value)});
 }
 
-void NodeTree::add(std::string_view name, std::span<const double> values, ArgumentStyle style) {
-  arguments.push_back({name,
-                       {},
-                       style,
-                       static_cast<uint8_t>(values.size()),
-                       static_cast<uint32_t>(numbers.size())});
+void NodeTree::add(ArgumentName name, std::span<const double> values, ArgumentStyle style) {
+  arguments.push_back(
+      {name, style, static_cast<uint16_t>(values.size()), static_cast<uint32_t>(numbers.size())});
   numbers.append(values);
 }
 
@@ -47,8 +44,8 @@ bool NodeTree::append(const NodeTree& from, uint32_t first, uint32_t end,
   const size_t old_arguments = arguments.size(), old_numbers = numbers.size();
   ValueCopier copier;
   for (const NodeArgument& argument : added) {
-    NodeArgument copy{argument.name, copier.copy(argument.value), argument.style,
-                      argument.number_count, static_cast<uint32_t>(numbers.size())};
+    NodeArgument copy{argument.name, argument.style, argument.number_count,
+                      static_cast<uint32_t>(numbers.size()), copier.copy(argument.value)};
     if (argument.value.is_set() && !copy.value.is_set()) {
       arguments.truncate(old_arguments);
       numbers.truncate(old_numbers);
@@ -71,7 +68,7 @@ bool NodeTree::append(const NodeTree& from, uint32_t first, uint32_t end,
 namespace {
 
 bool is_same(const Node& a, const Node& b) {
-  return a.name == b.name && a.place == b.place && a.first_argument == b.first_argument &&
+  return a.kind == b.kind && a.place == b.place && a.first_argument == b.first_argument &&
          a.end == b.end && a.modifiers == b.modifiers;
 }
 
@@ -85,7 +82,6 @@ bool is_same(const NodeArgument& a, const NodeArgument& b) {
 bool are_same(const NodeTree& a, const NodeTree& b) {
   const auto is_equal = [](const auto& x, const auto& y) { return is_same(x, y); };
   return std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end()) &&
-
          std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), is_equal) &&
          std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(), b.arguments.end(),
                     is_equal);

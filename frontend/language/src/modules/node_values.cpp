@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/value_text.hpp"
 
 namespace language {
@@ -91,23 +91,23 @@ Fragments clamped_fragments(const BuiltinCall& call) {
   return fragments;
 }
 
-void add(NodeTree& tree, std::string_view name, Value value, ArgumentStyle style) {
+void add(NodeTree& tree, ArgumentName name, Value value, ArgumentStyle style) {
   tree.add(name, std::move(value), style);
 }
 
-void add_bool(NodeTree& tree, std::string_view name, bool value) {
+void add_bool(NodeTree& tree, ArgumentName name, bool value) {
   add(tree, name, Value::boolean(value));
 }
 
-void add_integer(NodeTree& tree, std::string_view name, int64_t value) {
+void add_integer(NodeTree& tree, ArgumentName name, int64_t value) {
   add(tree, name, static_cast<double>(value), ArgumentStyle::kInteger);
 }
 
-void add_raw(NodeTree& tree, std::string_view name, std::string_view text) {
+void add_raw(NodeTree& tree, ArgumentName name, std::string_view text) {
   add(tree, name, make_string(text), ArgumentStyle::kRawString);
 }
 
-void add_escaped(NodeTree& tree, std::string_view name, std::string_view text) {
+void add_escaped(NodeTree& tree, ArgumentName name, std::string_view text) {
   add(tree, name, make_string(text), ArgumentStyle::kEscapedString);
 }
 

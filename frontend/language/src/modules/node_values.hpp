@@ -52,20 +52,20 @@ Fragments clamped_fragments(const BuiltinCall& call);
 inline void check_fragments(const BuiltinCall& call) { clamped_fragments(call); }
 
 // The following fill in the last node of a tree.
-inline void set_name(NodeTree& tree, std::string_view name) { tree.nodes.back().name = name; }
-void add(NodeTree& tree, std::string_view name, Value value,
+inline void set_kind(NodeTree& tree, NodeKind kind) { tree.nodes.back().kind = kind; }
+void add(NodeTree& tree, ArgumentName name, Value value,
          ArgumentStyle style = ArgumentStyle::kGeneral);
-inline void add_numbers(NodeTree& tree, std::string_view name, std::span<const double> numbers,
+inline void add_numbers(NodeTree& tree, ArgumentName name, std::span<const double> numbers,
                         ArgumentStyle style = ArgumentStyle::kGeneral) {
   tree.add(name, numbers, style);
 }
-inline void add_numbers(NodeTree& tree, std::string_view name, std::initializer_list<double> list) {
+inline void add_numbers(NodeTree& tree, ArgumentName name, std::initializer_list<double> list) {
   tree.add(name, std::span<const double>(list.begin(), list.size()), ArgumentStyle::kGeneral);
 }
-void add_bool(NodeTree& tree, std::string_view name, bool value);
-void add_integer(NodeTree& tree, std::string_view name, int64_t value);
-void add_raw(NodeTree& tree, std::string_view name, std::string_view text);
-void add_escaped(NodeTree& tree, std::string_view name, std::string_view text);
+void add_bool(NodeTree& tree, ArgumentName name, bool value);
+void add_integer(NodeTree& tree, ArgumentName name, int64_t value);
+void add_raw(NodeTree& tree, ArgumentName name, std::string_view text);
+void add_escaped(NodeTree& tree, ArgumentName name, std::string_view text);
 void add_fragments(NodeTree& tree, const Fragments& fragments);
 
 }  // namespace language

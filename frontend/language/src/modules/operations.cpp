@@ -29,7 +29,7 @@ std::array<double, 3> read_auto(const Value& value) {
 }  // namespace
 
 Made make_projection(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "projection");
+  set_kind(tree, NodeKind::kProjection);
   add_bool(tree, "cut", is_true_bool(call.parameters[0]));
   add_integer(tree, "convexity", integer_or(call.parameters[1], 0));
   return Made::kNode;
@@ -38,7 +38,7 @@ Made make_projection(const BuiltinCall& call, NodeTree& tree) {
 Made make_offset(const BuiltinCall& call, NodeTree& tree) {
   const Value& r = call.parameters[0];
   const Value& delta = call.parameters[1];
-  set_name(tree, "offset");
+  set_kind(tree, NodeKind::kOffset);
   if (delta.is_number() && !r.is_number()) {
     add(tree, "delta", delta);
     add_bool(tree, "chamfer", is_true_bool(call.parameters[2]));
@@ -50,25 +50,25 @@ Made make_offset(const BuiltinCall& call, NodeTree& tree) {
 }
 
 Made make_hull(const BuiltinCall&, NodeTree& tree) {
-  set_name(tree, "hull");
+  set_kind(tree, NodeKind::kHull);
   return Made::kNode;
 }
 
 Made make_minkowski(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "minkowski");
+  set_kind(tree, NodeKind::kMinkowski);
   add_integer(tree, "convexity", unsigned_convexity(call.parameters[0]));
   return Made::kNode;
 }
 
 Made make_render(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "render");
+  set_kind(tree, NodeKind::kRender);
   add_integer(tree, "convexity", integer_or(call.parameters[0], 1));
   return Made::kNode;
 }
 
 Made make_resize(const BuiltinCall& call, NodeTree& tree) {
   const Value& new_size = call.parameters[0];
-  set_name(tree, "resize");
+  set_kind(tree, NodeKind::kResize);
   std::array<double, 3> sizes = {0, 0, 0};
   if (new_size.is_vector()) {
     const std::span<const Value> elements = new_size.elements();

@@ -38,7 +38,7 @@ bool holds_function(const Value& value) {
   return false;
 }
 
-void add_list(NodeTree& tree, std::string_view name, const Value& list) {
+void add_list(NodeTree& tree, ArgumentName name, const Value& list) {
   Value kept = list.is_set() ? list : Value::undef();
   if (holds_function(kept)) {
     std::string text;
@@ -57,7 +57,7 @@ void add_convexity(NodeTree& tree, const Value& convexity) {
 Made make_polyhedron(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kPoints, kFaces, kConvexity, kTriangles };
   const auto& given = call.parameters;
-  set_name(tree, "polyhedron");
+  set_kind(tree, NodeKind::kPolyhedron);
   check_fragments(call);
   const bool has_triangles = !is_given(given[kFaces]) && is_given(given[kTriangles]);
   if (has_triangles) {
@@ -72,7 +72,7 @@ Made make_polyhedron(const BuiltinCall& call, NodeTree& tree) {
 }
 
 Made make_polygon(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "polygon");
+  set_kind(tree, NodeKind::kPolygon);
   check_fragments(call);
   add_list(tree, "points", call.parameters[0]);
   add_list(tree, "paths", call.parameters[1]);

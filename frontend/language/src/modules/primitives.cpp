@@ -31,13 +31,13 @@ bool make_a_solid(double lower, double upper) {
   return are_radii && std::isfinite(lower) && std::isfinite(upper);
 }
 
-Made make_round(const BuiltinCall& call, NodeTree& tree, std::string_view name) {
-  set_name(tree, name);
+Made make_round(const BuiltinCall& call, NodeTree& tree, NodeKind kind) {
+  set_kind(tree, kind);
   const Fragments fragments = clamped_fragments(call);
   const Value radius = read_radius(call, call.parameters[0], call.parameters[1], "r", "d");
   if (radius.is_set()) {
     check_range(call, is_positive(radius.number()),
-                std::string(name) + "(r=" + shown(radius) + ")");
+                std::string(name_of(kind)) + "(r=" + shown(radius) + ")");
   }
   add_fragments(tree, fragments);
   add(tree, "r", number_or(radius, 1));
@@ -47,7 +47,7 @@ Made make_round(const BuiltinCall& call, NodeTree& tree, std::string_view name) 
 }  // namespace
 
 Made make_cube(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "cube");
+  set_kind(tree, NodeKind::kCube);
   check_fragments(call);
   const Value& size = call.parameters[0];
   std::array<double, 3> sizes = {1, 1, 1};
@@ -69,7 +69,7 @@ Made make_cube(const BuiltinCall& call, NodeTree& tree) {
 }
 
 Made make_square(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "square");
+  set_kind(tree, NodeKind::kSquare);
   check_fragments(call);
   const Value& size = call.parameters[0];
   std::array<double, 2> sizes = {1, 1};
@@ -90,15 +90,15 @@ Made make_square(const BuiltinCall& call, NodeTree& tree) {
 }
 
 Made make_sphere(const BuiltinCall& call, NodeTree& tree) {
-  return make_round(call, tree, "sphere");
+  return make_round(call, tree, NodeKind::kSphere);
 }
 
 Made make_circle(const BuiltinCall& call, NodeTree& tree) {
-  return make_round(call, tree, "circle");
+  return make_round(call, tree, NodeKind::kCircle);
 }
 
 Made make_cylinder(const BuiltinCall& call, NodeTree& tree) {
-  set_name(tree, "cylinder");
+  set_kind(tree, NodeKind::kCylinder);
   enum : size_t { kH, kR1, kR2, kCenter, kR, kD, kD1, kD2 };
   const auto& given = call.parameters;
   const Fragments fragments = clamped_fragments(call);

@@ -36,7 +36,7 @@ Made make_text(const BuiltinCall& call, NodeTree& tree) {
   const std::string_view script = code.empty() ? script_name : code;
   std::string_view direction = direction_named(text_or(given[kDirection], ""));
   if (direction.empty()) direction = direction_of_script(code);
-  set_name(tree, "text");
+  set_kind(tree, NodeKind::kText);
   add_raw(tree, "text", text);
   add(tree, "size", number_or(given[kSize], 10));
   add(tree, "spacing", number_or(given[kSpacing], 1));

@@ -8,7 +8,7 @@
 #include "language/degrees.hpp"
 #include "modules/makers.hpp"
 #include "modules/node_values.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language {
 namespace {
@@ -19,7 +19,7 @@ using Matrix = std::array<std::array<double, 4>, 4>;  // by rows
 constexpr Matrix kIdentity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 Made finish(NodeTree& tree, const Matrix& matrix) {
-  set_name(tree, "multmatrix");
+  set_kind(tree, NodeKind::kMultmatrix);
   add_numbers(tree, "", {matrix.front().data(), 16}, ArgumentStyle::kMatrix);
   return Made::kNode;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/range.hpp"
 
 namespace language {

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "base/utf8.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/operators.hpp"
 #include "values/range.hpp"
 

@@ -1,7 +1,8 @@
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -32,6 +33,12 @@ VectorObject* allocate_vector(size_t capacity) {
 VectorObject& vector_of(const Value& value) { return static_cast<VectorObject&>(*value.object()); }
 
 }  // namespace
+
+UnboundedValues::UnboundedValues() : used_(object_memory.used), limit_(object_memory.limit) {
+  object_memory.limit = std::numeric_limits<int64_t>::max() / 2;
+}
+
+UnboundedValues::~UnboundedValues() { object_memory = {used_, limit_}; }
 
 Value make_string(std::string_view text) {
   auto* string = new (allocate_object(sizeof(StringObject) + text.size())) StringObject;

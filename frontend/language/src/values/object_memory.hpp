@@ -27,7 +27,7 @@ extern constinit thread_local ObjectMemory object_memory;
 
 /// Throws OutOfValueMemory if a text of that size, made of values, would not fit.
 inline void check_text_size(size_t bytes) {
-  if (object_memory.used + static_cast<int64_t>(bytes) > object_memory.limit)
+  if (static_cast<int64_t>(bytes) > object_memory.limit - object_memory.used)
     throw OutOfValueMemory();
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/work_meter.hpp"
 #include "values/level_stack.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 #include "values/too_large.hpp"
 
 namespace language {

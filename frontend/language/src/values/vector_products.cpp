@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/work_meter.hpp"
-#include "values/make.hpp"
+#include "language/make.hpp"
 
 namespace language {
 namespace {

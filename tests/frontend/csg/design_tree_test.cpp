@@ -1,8 +1,9 @@
-#include "csg/evaluated_tree.hpp"
+#include "frontend/design_tree.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "csg/argument_value.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "language/evaluation.hpp"
@@ -15,10 +16,10 @@ using csgcore::Vec3;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-SyntaxTree evaluated(std::string_view scad) {
+DesignTree evaluated(std::string_view scad) {
   const language::Evaluation evaluation = language::evaluate(
       "-", {}, [](std::string_view) {}, scad);
-  return tree_of(*evaluation.tree, *evaluation.files, "a.scad");
+  return tree_of(evaluation, "a.scad");
 }
 
 ImportedDesign imported(std::string_view scad, const ImportOptions& options = {}) {
@@ -28,26 +29,29 @@ ImportedDesign imported(std::string_view scad, const ImportOptions& options = {}
 /// Returns the middle of the first face of the primitive along x, in the world.
 double right_side(const csgcore::Primitive& cube) { return cube.local_to_world.point(Vec3(1)).x; }
 
+/// Returns an argument of a node.
+ArgumentValue argument_of(const DesignTree& tree, uint32_t node, size_t index) {
+  const auto arguments = tree.nodes->arguments_of(tree.nodes->nodes[node]);
+  return {*tree.nodes, arguments[index]};
+}
+
 TEST(EvaluatedTree, KeepsAllDigits) {
-  const SyntaxTree tree = evaluated("translate([1/3,0,0]) cube([2/3,1,1]);");
-  ASSERT_EQ(tree.nodes.size(), 2u);
-  EXPECT_EQ(tree.nodes[0].kind, NodeKind::kMultmatrix);
-  EXPECT_EQ(tree.nodes[0].subtree_end, 2u);
-  const Value rows = tree.arguments_of(tree.nodes[0])[0].value;
-  EXPECT_EQ(tree.elements_of(tree.elements_of(rows)[0])[3].number, 1.0 / 3);
-  const Argument size = tree.arguments_of(tree.nodes[1])[0];
-  EXPECT_EQ(size.name, "size");
-  EXPECT_EQ(tree.elements_of(size.value)[0].number, 2.0 / 3);
+  const DesignTree tree = evaluated("translate([1/3,0,0]) cube([2/3,1,1]);");
+  ASSERT_EQ(tree.nodes->size(), 2u);
+  EXPECT_EQ(tree.nodes->nodes[0].kind, NodeKind::kMultmatrix);
+  EXPECT_EQ(tree.nodes->nodes[0].end, 2u);
+  EXPECT_EQ(argument_of(tree, 0, 0).elements()[0].elements()[3].number(), 1.0 / 3);
+  EXPECT_EQ(argument_of(tree, 1, 0).elements()[0].number(), 2.0 / 3);
 }
 
 TEST(EvaluatedTree, HasThePlacesOfTheDesign) {
-  const SyntaxTree tree = evaluated("\n  union() {\n\tcube(1);\n}\n");
-  EXPECT_EQ(tree.nodes[0].location.line, 2u);
-  EXPECT_EQ(tree.nodes[0].location.column, 3u);
-  EXPECT_EQ(tree.nodes[1].location.line, 3u);
-  EXPECT_EQ(tree.nodes[1].location.column, 2u);
-  EXPECT_THAT(tree.offsets, ElementsAre(3u, 14u));
-  EXPECT_EQ(tree.file_of(tree.nodes[1].location), "a.scad");
+  const DesignTree tree = evaluated("\n  union() {\n\tcube(1);\n}\n");
+  const language::Place first = tree.nodes->nodes[0].place, second = tree.nodes->nodes[1].place;
+  EXPECT_EQ(tree.location_of(first).line, 2u);
+  EXPECT_EQ(tree.location_of(first).column, 3u);
+  EXPECT_EQ(tree.location_of(second).line, 3u);
+  EXPECT_EQ(tree.location_of(second).column, 2u);
+  EXPECT_EQ(tree.file_of(second), "a.scad");
 }
 
 TEST(EvaluatedTree, KnowsTheFileOfAnIncludedNode) {
@@ -55,32 +59,30 @@ TEST(EvaluatedTree, KnowsTheFileOfAnIncludedNode) {
   folder.write("b.scad", "\ncube(1);\n");
   const std::string main = folder.write("a.scad", "sphere(1);\ninclude <b.scad>\n");
   const language::Evaluation evaluation = language::evaluate(main, {}, [](std::string_view) {});
-  const SyntaxTree tree = tree_of(*evaluation.tree, *evaluation.files, main);
-  ASSERT_EQ(tree.nodes.size(), 2u);
-  EXPECT_EQ(tree.file_of(tree.nodes[0].location), main);
-  EXPECT_THAT(tree.file_of(tree.nodes[1].location), HasSubstr("b.scad"));
-  EXPECT_EQ(tree.nodes[1].location.line, 2u);
-}
-
-TEST(EvaluatedTree, HasModifiersAndTheRootAlone) {
-  const SyntaxTree marked = evaluated("#cube(1); %sphere(1);");
-  EXPECT_EQ(marked.nodes[0].modifiers, kHighlight);
-  EXPECT_EQ(marked.nodes[1].modifiers, kBackground);
-  const SyntaxTree rooted = evaluated("cube(1); union() !#sphere(1);");
-  ASSERT_EQ(rooted.nodes.size(), 1u);
-  EXPECT_EQ(rooted.nodes[0].kind, NodeKind::kSphere);
-  EXPECT_EQ(rooted.nodes[0].modifiers, 0);
+  const DesignTree tree = tree_of(evaluation, main);
+  ASSERT_EQ(tree.nodes->size(), 2u);
+  EXPECT_EQ(tree.file_of(tree.nodes->nodes[0].place), main);
+  EXPECT_THAT(tree.file_of(tree.nodes->nodes[1].place), HasSubstr("b.scad"));
+  EXPECT_EQ(tree.location_of(tree.nodes->nodes[1].place).line, 2u);
 }
 
 TEST(EvaluatedTree, TakesRangesAndFunctionsForUndef) {
-  const SyntaxTree tree =
+  const DesignTree tree =
       evaluated("polygon(points=[[0:2],[\"a\",[1,[2]]]], paths=function(x) x);");
-  const auto arguments = tree.arguments_of(tree.nodes[0]);
-  const auto points = tree.elements_of(arguments[0].value);
-  EXPECT_EQ(points[0].kind, ValueKind::kUndef);
-  EXPECT_EQ(tree.text_of(tree.elements_of(points[1])[0]), "a");
-  EXPECT_EQ(tree.elements_of(tree.elements_of(tree.elements_of(points[1])[1])[1])[0].number, 2);
-  EXPECT_EQ(arguments[1].value.kind, ValueKind::kUndef);
+  const ValueList points = argument_of(tree, 0, 0).elements();
+  EXPECT_EQ(points[0].kind(), ValueKind::kUndef);
+  EXPECT_EQ(points[1].elements()[0].text(), "a");
+  EXPECT_EQ(points[1].elements()[1].elements()[1].elements()[0].number(), 2);
+  EXPECT_EQ(argument_of(tree, 0, 1).kind(), ValueKind::kUndef);
+}
+
+TEST(RootModifier, LeavesItsNodeWithoutTheOthers) {
+  for (const bool is_csg : {false, true}) {
+    const std::string scad = "cube(1); union() !#sphere(1);";
+    const ImportedDesign design = import_design(is_csg ? parse(scad, "a.csg") : evaluated(scad));
+    EXPECT_EQ(design.scene.primitives.size(), 1u);
+    EXPECT_TRUE(design.scene.layers.empty());
+  }
 }
 
 TEST(EvaluatedTree, IsDrawnAsTheTextOfItsCsg) {
@@ -102,20 +104,17 @@ TEST(EvaluatedTree, WarnsWithThePlaceInTheDesign) {
 TEST(EvaluatedTree, FillsPlaces) {
   const ImportedDesign design =
       imported("cube(1);\n render() {\nsphere(1);}", {.keeps_places = true});
-  ASSERT_EQ(design.places.size(), 2u);
-  EXPECT_EQ(design.places[1].line, 3u);
-  EXPECT_EQ(design.places[1].offset, 21u);
-  EXPECT_EQ(design.places[1].node, 2u);
+  EXPECT_THAT(design.places, ElementsAre(0u, 2u));
 }
 
 TEST(EvaluatedDesigns, MatricesStayAsTheyAre) {
   const ImportedDesign design = imported(
       "rotate([12.3456789012345,1/7*100,33.3333333333333]) translate([1/3,sqrt(2),0]) cube(1);");
-  const SyntaxTree tree = evaluated("rotate([12.3456789012345,1/7*100,33.3333333333333]) cube(1);");
-  const auto rows = tree.elements_of(tree.arguments_of(tree.nodes[0])[0].value);
+  const DesignTree tree = evaluated("rotate([12.3456789012345,1/7*100,33.3333333333333]) cube(1);");
+  const ValueList rows = argument_of(tree, 0, 0).elements();
   const csgcore::Primitive& cube = design.scene.primitives[0];
   for (int row = 0; row < 3; ++row) {
-    EXPECT_EQ(cube.local_to_world.linear[0][row], tree.elements_of(rows[row])[0].number);
+    EXPECT_EQ(cube.local_to_world.linear[0][row], rows[static_cast<size_t>(row)].elements()[0].number());
   }
 }
 

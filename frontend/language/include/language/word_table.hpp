@@ -6,17 +6,17 @@
 #include <cstdint>
 #include <string_view>
 
-namespace frontend {
+namespace language {
 
 /// Finds a word's index in a fixed list. The hash combines the length and the first, middle and
 /// last letters, by which the words that OpenSCAD writes seldom collide.
 template <size_t kCount>
-class NameTable {
+class WordTable {
  public:
   static constexpr uint8_t kNone = 255;
   static_assert(kCount < kNone);
 
-  explicit consteval NameTable(const std::array<std::string_view, kCount>& names) : names_(names) {
+  explicit consteval WordTable(const std::array<std::string_view, kCount>& names) : names_(names) {
     slots_.fill(kNone);
     for (size_t i = 0; i < kCount; ++i) {
       size_t slot = hash(names[i]);
@@ -26,14 +26,15 @@ class NameTable {
   }
 
   /// Returns the index of `word`, which must not be empty, or kNone.
-  uint8_t find(std::string_view word) const {
+  constexpr uint8_t find(std::string_view word) const {
     for (size_t slot = hash(word); slots_[slot] != kNone; slot = (slot + 1) % kSlots) {
       if (names_[slots_[slot]] == word) return slots_[slot];
     }
     return kNone;
   }
 
-  std::string_view operator[](uint8_t index) const { return names_[index]; }
+  constexpr std::string_view operator[](uint8_t index) const { return names_[index]; }
+  static constexpr size_t size() { return kCount; }
 
  private:
   static constexpr size_t kSlots = 256;  // several times the words, so that most have their own
@@ -49,6 +50,6 @@ class NameTable {
 };
 
 template <size_t kCount>
-NameTable(const std::array<std::string_view, kCount>&) -> NameTable<kCount>;
+WordTable(const std::array<std::string_view, kCount>&) -> WordTable<kCount>;
 
-}  // namespace frontend
+}  // namespace language

@@ -12,6 +12,19 @@
 
 namespace language {
 
+/// As long as it lives, values of this thread may take all memory there is: they are not those of
+/// an evaluation.
+class UnboundedValues {
+ public:
+  UnboundedValues();
+  ~UnboundedValues();
+  UnboundedValues(const UnboundedValues&) = delete;
+  UnboundedValues& operator=(const UnboundedValues&) = delete;
+
+ private:
+  const int64_t used_, limit_;  // before
+};
+
 Value make_string(std::string_view text);
 /// Returns an empty vector with room for `capacity` elements.
 Value make_vector(size_t capacity = 0);
