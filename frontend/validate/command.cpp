@@ -88,9 +88,8 @@ class Run {
     const auto time =
         std::chrono::duration<double>(kExtrusionShare * options_.settings.time_limit_s);
     Result extrusions = judge_extrusions(
-        tree_, frontend::beside(options_.input, text_, options_.import),
-        options_.settings, Clock::now() + std::chrono::duration_cast<Clock::duration>(time),
-        show_progress_);
+        tree_, frontend::beside(options_.input, text_, options_.import), options_.settings,
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(time), show_progress_);
     std::ranges::move(extrusions.checks, std::back_inserter(result.checks));
     std::ranges::move(extrusions.notes, std::back_inserter(result.notes));
   }

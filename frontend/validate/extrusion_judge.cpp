@@ -28,8 +28,8 @@ namespace {
 
 using csgcore::Ray;
 using csgcore::Vec3;
-using frontend::NodeKind;
 using frontend::Node;
+using frontend::NodeKind;
 using frontend::NodeTree;
 
 constexpr const char* kGroup = "extrusions that turn, against OpenSCAD's facets";

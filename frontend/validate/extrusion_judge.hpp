@@ -1,8 +1,8 @@
 // Compares the extrusions of a design whose sides turn with OpenSCAD's own facets.
 #pragma once
 
-#include "frontend/import_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/import_options.hpp"
 #include "validation.hpp"
 
 namespace validation {

@@ -57,7 +57,7 @@ struct Probe {
   Purpose purpose = Purpose::kMeasure;
   PaintOrder order;
   PicturePoint place{};
-  double snap_px = 0;  // kMeasure: how far a feature may be that it snaps to; 0: it doesn't
+  double snap_px = 0;         // kMeasure: how far a feature may be that it snaps to; 0: it doesn't
   frontend::DesignTree tree;  // for the places in the design
 };
 

@@ -37,8 +37,8 @@ struct DesignText {
 };
 
 struct DesignFile {
-  std::string name{};                // as messages show it
-  std::size_t file_bytes = 0;        // size of the .csg text that was parsed
+  std::string name{};          // as messages show it
+  std::size_t file_bytes = 0;  // size of the .csg text that was parsed
   DesignTree tree;
   ImportOptions import{};            // import_design() takes these, too
   DesignCamera camera{};             // that the design asks for

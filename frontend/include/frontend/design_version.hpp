@@ -62,7 +62,7 @@ struct DesignVersion {
   DesignCamera camera;  // that the design asks for
   /// Those of the last text that could be parsed; null: there was none, or it is no .scad.
   std::shared_ptr<const DesignParameters> parameters;
-  double export_ms = 0;   // time that the evaluation of a .scad took
+  double export_ms = 0;  // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;
   double import_ms = 0;

@@ -3,9 +3,9 @@
 
 #include <stop_token>
 
+#include "frontend/design_tree.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/imported_design.hpp"
-#include "frontend/design_tree.hpp"
 
 namespace frontend {
 

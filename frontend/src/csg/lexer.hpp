@@ -94,7 +94,7 @@ class Lexer {
   const char* at_;
   const char* text_end_ = nullptr;  // where kTextEnd was found last, so that no part of the text is
                                     // searched twice
-  bool seeks_end_ = false;  // the end of a comment, string or text is missing
+  bool seeks_end_ = false;          // the end of a comment, string or text is missing
   const std::string& file_name_;
 };
 

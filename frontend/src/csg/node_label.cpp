@@ -16,10 +16,11 @@ constexpr std::size_t kMostCharacters = 24, kMostElements = 4;
 /// The arguments that tell what a node is, in the order in which they are shown.
 std::span<const language::ArgumentName> telling_arguments(NodeKind kind) {
   static constexpr language::ArgumentName kSphere[] = {"r"}, kCylinder[] = {"h", "r1", "r2"},
-                                    kSize[] = {"size"}, kText[] = {"text"},
-                                    kLinear[] = {"height", "twist", "scale"}, kAngle[] = {"angle"},
-                                    kFile[] = {"file"}, kCut[] = {"cut"},
-                                    kOffset[] = {"r", "delta"}, kResize[] = {"newsize"};
+                                          kSize[] = {"size"}, kText[] = {"text"},
+                                          kLinear[] = {"height", "twist", "scale"},
+                                          kAngle[] = {"angle"}, kFile[] = {"file"},
+                                          kCut[] = {"cut"}, kOffset[] = {"r", "delta"},
+                                          kResize[] = {"newsize"};
   switch (kind) {
     case NodeKind::kSphere:
     case NodeKind::kCircle:
@@ -86,8 +87,7 @@ class Writer {
     for (const language::NodeArgument& argument : tree_.arguments_of(node_)) {
       if (argument.name.is_positional()) add({}, {tree_, argument});
     }
-    const bool is_straight =
-        node_.kind == NodeKind::kCylinder && are_equal(find("r1"), find("r2"));
+    const bool is_straight = node_.kind == NodeKind::kCylinder && are_equal(find("r1"), find("r2"));
     for (const language::ArgumentName name : telling_arguments(node_.kind)) {
       const ArgumentValue value = find(name);
       if (is_usual(name, value)) continue;
@@ -180,8 +180,6 @@ class Writer {
 
 }  // namespace
 
-std::string label_of(const NodeTree& tree, const Node& node) {
-  return Writer(tree, node).label();
-}
+std::string label_of(const NodeTree& tree, const Node& node) { return Writer(tree, node).label(); }
 
 }  // namespace frontend

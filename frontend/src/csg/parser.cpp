@@ -111,11 +111,11 @@ class Parser {
     bool single_child;  // it is without braces
     bool is_disabled;
   };
-  std::vector<OpenNode> open_;     // the innermost is the last
-  std::vector<Value> elements_;    // of the open lists, so far, from outside in
-  std::vector<size_t> lists_;      // by open list: where its elements begin
-  std::vector<double> numbers_;    // of the last matrix() or list_of_numbers()
-  std::string string_;             // the last one, unescaped
+  std::vector<OpenNode> open_;   // the innermost is the last
+  std::vector<Value> elements_;  // of the open lists, so far, from outside in
+  std::vector<size_t> lists_;    // by open list: where its elements begin
+  std::vector<double> numbers_;  // of the last matrix() or list_of_numbers()
+  std::string string_;           // the last one, unescaped
 };
 
 void Parser::run(const std::stop_token& stop) {

@@ -43,11 +43,10 @@ ArgumentValue find_argument(const NodeTree& tree, const Node& node, language::Ar
 
 /// Returns the number of that name or place; nothing where it is missing, or is none.
 std::optional<double> number_argument(const NodeTree& tree, const Node& node,
-                                      language::ArgumentName name,
-                                      size_t position = kByNameOnly);
+                                      language::ArgumentName name, size_t position = kByNameOnly);
 
 /// Returns the elements of the list of that name or place; none where it is missing.
-ValueList list_argument(const NodeTree& tree, const Node& node,
-                        language::ArgumentName name, size_t position, NodeProblems& problems);
+ValueList list_argument(const NodeTree& tree, const Node& node, language::ArgumentName name,
+                        size_t position, NodeProblems& problems);
 
 }  // namespace frontend

@@ -75,8 +75,8 @@ Fit fit_of(const Primitive& primitive) {
 
 /// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes"). `file` is empty where
 /// the node lists the faces.
-void note_open_mesh(const Node& node, const csgcore::TriangleMesh& mesh,
-                    const std::string& file, NodeProblems& problems) {
+void note_open_mesh(const Node& node, const csgcore::TriangleMesh& mesh, const std::string& file,
+                    NodeProblems& problems) {
   const uint64_t edges = mesh.open_edges();
   problems.add(node,
                {" is not closed: " + std::to_string(edges) + (edges == 1 ? " edge" : " edges") +
@@ -465,7 +465,8 @@ int Collector::dimension_of(uint32_t root) const {
     const Node& node = tree_.nodes[i];
     const bool is_drawing = names_drawing(tree_, node);
     const bool is_known = role_of(node.kind) != Role::kUnsupportedOperation;
-    const bool is_background = (modifiers_of(tree_, selected, i) & language::kBackgroundModifier) != 0;
+    const bool is_background =
+        (modifiers_of(tree_, selected, i) & language::kBackgroundModifier) != 0;
     if (is_background || !is_known) {
       i = node.end;
       continue;

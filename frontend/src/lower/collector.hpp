@@ -54,7 +54,7 @@ class Collector {
   NodeProblems problems;
   uint32_t primitive_nodes = 0;
   std::vector<uint32_t> places;  // by primitive node, where the options want them: the leaf
-  bool any_modifiers = false;          // of the nodes that are drawn
+  bool any_modifiers = false;    // of the nodes that are drawn
   /// The compound leaves (leaves.hpp) that are drawn, in file order, each with its frame.
   struct CompoundLeaf {
     uint32_t node;

@@ -196,8 +196,7 @@ std::vector<Vec3> points_of(const ValueList& values) {
   std::vector<Vec3> points;
   points.reserve(values.size());
   for (const ArgumentValue value : values) {
-    points.push_back(
-        vector_of(value, 2).value_or(Vec3(std::numeric_limits<double>::quiet_NaN())));
+    points.push_back(vector_of(value, 2).value_or(Vec3(std::numeric_limits<double>::quiet_NaN())));
   }
   return points;
 }
@@ -292,8 +291,7 @@ FaceSet read_polyhedron(const NodeTree& tree, const Node& node, NodeProblems& pr
   return FaceReader(node, points, problems).read(faces);
 }
 
-FileArguments read_file_arguments(const NodeTree& tree, const Node& node,
-                                  NodeProblems& problems) {
+FileArguments read_file_arguments(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   FileArguments result;
   const ArgumentValue file = find_argument(tree, node, "file", 0);
   if (file.is_string()) {
@@ -357,15 +355,14 @@ std::optional<csgcore::Color> read_color(const NodeTree& tree, const Node& node,
       }
       channels[i] = 0;  // as OpenSCAD reads it
       if (elements[i].is_undef()) continue;
-      note_wrong(problems, node, "a channel", std::string(name_of(elements[i].kind())), "counts as 0",
-                 "a number from 0 to 1");
+      note_wrong(problems, node, "a channel", std::string(name_of(elements[i].kind())),
+                 "counts as 0", "a number from 0 to 1");
     }
   } else if (color.is_string()) {
     const std::optional<csgcore::Color> named = color_of_name(color.text());
     if (!named) {
-      problems.add(node,
-                   {": \"" + std::string(color.text()) + "\" is no colour, and is ignored",
-                    "use a CSS colour name, \"#rrggbb\" or [r, g, b]"});
+      problems.add(node, {": \"" + std::string(color.text()) + "\" is no colour, and is ignored",
+                          "use a CSS colour name, \"#rrggbb\" or [r, g, b]"});
       return std::nullopt;
     }
     channels = {named->r, named->g, named->b, named->a};

@@ -21,8 +21,7 @@ struct RoundPrimitive {
   csgcore::Primitive primitive;
   csgcore::FacetSettings facets;
 };
-RoundPrimitive read_round_primitive(const NodeTree& tree, const Node& node,
-                                    NodeProblems& problems);
+RoundPrimitive read_round_primitive(const NodeTree& tree, const Node& node, NodeProblems& problems);
 
 /// Cube node → its box in local coordinates; it may be empty, flat or infinite. `size` is a number
 /// or three, 1 where it is missing.
@@ -40,8 +39,7 @@ struct FileArguments {
   std::string file;
   bool is_centered = false, is_inverted = false;  // of a surface
 };
-FileArguments read_file_arguments(const NodeTree& tree, const Node& node,
-                                  NodeProblems& problems);
+FileArguments read_file_arguments(const NodeTree& tree, const Node& node, NodeProblems& problems);
 
 /// The affine part of a multmatrix as it stands in the file, before the division by m[3][3].
 struct FileMatrix {

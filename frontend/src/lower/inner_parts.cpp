@@ -61,7 +61,8 @@ std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree) {
       i = subtree.end_of(i);
       continue;
     }
-    open.push_back({subtree.end_of(i), is_leaf ? uint8_t{0} : modifiers, parts + (is_part ? 1 : 0)});
+    open.push_back(
+        {subtree.end_of(i), is_leaf ? uint8_t{0} : modifiers, parts + (is_part ? 1 : 0)});
     if (node.kind == NodeKind::kMultmatrix || node.kind == NodeKind::kColor) around.push_back(i);
     ++i;
   }

@@ -29,7 +29,8 @@ std::vector<Warning> NodeProblems::warnings(const DesignTree& tree) const {
     std::string what = std::string(name_of(kind)) + text;
     if (problem.count > 1) what += "; the first of " + std::to_string(problem.count);
     const auto make = problem.is_note ? make_note : make_warning;
-    result.push_back(make(tree.file_of(problem.first), tree.location_of(problem.first), what, todo));
+    result.push_back(
+        make(tree.file_of(problem.first), tree.location_of(problem.first), what, todo));
   }
   return result;
 }

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "frontend/error.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/error.hpp"
 
 namespace frontend {
 

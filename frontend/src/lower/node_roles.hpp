@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "csgcore/csg_tree.hpp"
-#include "frontend/import_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/import_options.hpp"
 
 namespace frontend {
 

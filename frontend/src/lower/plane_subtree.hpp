@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "frontend/import_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/import_options.hpp"
 #include "heal/matrix_healing.hpp"
 #include "lower/import_files.hpp"
 #include "lower/node_problems.hpp"

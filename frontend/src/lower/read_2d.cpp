@@ -38,8 +38,7 @@ bool is_on(const ArgumentValue& value) {
 }
 
 /// The points; nothing if one of them is none.
-std::optional<Polygon> read_points(const NodeTree& tree, const Node& node,
-                                   NodeProblems& problems) {
+std::optional<Polygon> read_points(const NodeTree& tree, const Node& node, NodeProblems& problems) {
   const ValueList values = list_argument(tree, node, "points", 0, problems);
   Polygon points;
   points.reserve(values.size());
@@ -69,8 +68,8 @@ uint32_t index_of(const ArgumentValue& value) {
   return static_cast<uint32_t>(static_cast<int64_t>(number));
 }
 
-Polygon read_path(const Polygon& points, const ArgumentValue& path,
-                  size_t path_index, ElementProblem& beyond_points) {
+Polygon read_path(const Polygon& points, const ArgumentValue& path, size_t path_index,
+                  ElementProblem& beyond_points) {
   Polygon result;
   if (!path.is_list()) return result;
   const ValueList indices = path.elements();
@@ -201,8 +200,7 @@ ResizeArguments read_resize(const NodeTree& tree, const Node& node) {
   if (size.is_list()) {
     const ValueList elements = size.elements();
     for (size_t i = 0; i < std::min(elements.size(), result.size.size()); ++i) {
-      const bool is_number =
-          elements[i].is_number() && std::isfinite(elements[i].number());
+      const bool is_number = elements[i].is_number() && std::isfinite(elements[i].number());
       if (is_number) result.size[i] = elements[i].number();
     }
   }

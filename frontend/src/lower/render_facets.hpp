@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "frontend/import_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/import_options.hpp"
 
 namespace frontend {
 

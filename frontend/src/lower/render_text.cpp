@@ -249,10 +249,9 @@ std::string font_lines(const std::vector<std::string>& fonts) {
 
 bool may_be_rendered(const NodeTree& tree, uint32_t root) {
   const auto begin = tree.nodes.begin();
-  return std::none_of(begin + root, begin + tree.nodes[root].end,
-                      [](const Node& node) {
-                        return node.kind == NodeKind::kRoof || node.kind == NodeKind::kFill;
-                      });
+  return std::none_of(begin + root, begin + tree.nodes[root].end, [](const Node& node) {
+    return node.kind == NodeKind::kRoof || node.kind == NodeKind::kFill;
+  });
 }
 
 RenderRequest render_request(const NodeTree& tree, uint32_t root, bool is_plane,

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "frontend/import_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/import_options.hpp"
 #include "rendered/rendering.hpp"
 
 namespace frontend {

@@ -77,7 +77,8 @@ void apply_modifiers(ResolvedNode& node_state, uint8_t modifiers) {
   if ((modifiers & language::kHighlightModifier) != 0) {
     node_state.highlighted = node_state.presence == Presence::kSolid;
   }
-  if ((modifiers & language::kBackgroundModifier) != 0 && node_state.presence != Presence::kLeftOut) {
+  if ((modifiers & language::kBackgroundModifier) != 0 &&
+      node_state.presence != Presence::kLeftOut) {
     node_state.presence = Presence::kBackground;
   }
 }
@@ -94,8 +95,7 @@ class ModifierResolver {
     for (uint32_t i = selected_.begin; i < selected_.end;) {
       const Node& node = tree_.nodes[i];
       close_until(i);
-      if (node.end > i + 1 && !leaves_[i].is_whole &&
-                 leaves_[i].presence != Presence::kLeftOut) {
+      if (node.end > i + 1 && !leaves_[i].is_whole && leaves_[i].presence != Presence::kLeftOut) {
         open_.push_back({i, node.kind, node.end});
         ++i;
       } else {

@@ -172,8 +172,7 @@ TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius)
   return sections;
 }
 
-std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node,
-                                     NodeProblems& problems) {
+std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node, NodeProblems& problems) {
   if (!(bounds.min.x < 0 && bounds.max.x > 0)) return bounds;
   // OpenSCAD's grid: a figure that reaches less beyond the axis touches it.
   constexpr double kReachBeyondAxis = 0x1p-16;

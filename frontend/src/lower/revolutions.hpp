@@ -22,8 +22,7 @@ TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius)
 /// Returns the bounds of a figure on one side of the axis x = 0, so that they end there if they
 /// reach beyond it by less than a figure's rounding. Nothing if it stands on both sides, of which
 /// `problems` is told.
-std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node,
-                                     NodeProblems& problems);
+std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node, NodeProblems& problems);
 
 /// Returns the polygons without what is beyond the axis x = 0, which is no more than rounding.
 SimplePolygons cut_at_axis(SimplePolygons polygons, bool is_left);

@@ -45,8 +45,7 @@ csgcore::Affine leaning(const LinearExtrudeArguments& arguments) {
   return map;
 }
 
-std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
-                                                const Node& node,
+std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data, const Node& node,
                                                 std::span<const Figure> figures,
                                                 NodeProblems& problems) {
   const LinearExtrudeArguments& given = data.arguments;

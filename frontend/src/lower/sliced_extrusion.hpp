@@ -25,8 +25,7 @@ struct SlicedExtrusion {
 
 /// Returns the solid of the figures, whose layers turn or are scaled differently in x and y, before
 /// they lean. Nothing if it is empty, or left out, of which `problems` is told.
-std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
-                                                const Node& node,
+std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data, const Node& node,
                                                 std::span<const Figure> figures,
                                                 NodeProblems& problems);
 

@@ -6,8 +6,8 @@
 
 namespace frontend {
 
-SolidNode read_solid_node(const NodeTree& tree, const Node& node,
-                          const ImportOptions& options, NodeProblems& problems) {
+SolidNode read_solid_node(const NodeTree& tree, const Node& node, const ImportOptions& options,
+                          NodeProblems& problems) {
   switch (node.kind) {
     case NodeKind::kSphere:
     case NodeKind::kCylinder: {

@@ -8,8 +8,8 @@
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
-#include "frontend/import_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/import_options.hpp"
 #include "lower/import_arguments.hpp"
 #include "lower/node_problems.hpp"
 #include "meshes/face_set.hpp"
@@ -32,7 +32,7 @@ using SolidNode =
                  FileArguments, FileMatrix, NodeColor>;
 
 /// Reads the node's arguments.
-SolidNode read_solid_node(const NodeTree& tree, const Node& node,
-                          const ImportOptions& options, NodeProblems& problems);
+SolidNode read_solid_node(const NodeTree& tree, const Node& node, const ImportOptions& options,
+                          NodeProblems& problems);
 
 }  // namespace frontend

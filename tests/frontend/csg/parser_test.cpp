@@ -215,8 +215,9 @@ TEST(Parser, ModifiersBeforeAndAfterTheTabs) {
 }
 
 TEST(Parser, DropsDisabledSubtreesAndKeepsRoots) {
-  EXPECT_EQ(parsed("union() { *group() { sphere([1, 2]); *cube(\"a\"); } !cube([2, 3]); } circle(3);"),
-            "union(){!cube([2 3])} circle(3)");
+  EXPECT_EQ(
+      parsed("union() { *group() { sphere([1, 2]); *cube(\"a\"); } !cube([2, 3]); } circle(3);"),
+      "union(){!cube([2 3])} circle(3)");
   EXPECT_EQ(parsed("* % !hull() #group() { sphere(1); } *cube(2);"), "");
   EXPECT_EQ(parsed("hull() *group() sphere(1); cube([1, 2]);"), "hull() cube([1 2])");
   EXPECT_THAT(error_of("cube(1); *sphere(r = oops);"), StartsWith("x.csg:1:22: error:"));
@@ -235,9 +236,9 @@ TEST(RawText, QuotesLineBreaksAndBackslashesStandRaw) {
   const DesignTree tree = parse(
       "\ttext(text = \"say (\"hi\");\nline\\2\\n\", size = 4, spacing = 1);\n\tcube(size = 1);\n",
       "x.csg");
-  EXPECT_EQ(shown(tree),
-            "text(text=<say (\"hi\");\nline\\2\\n>, size=4, spacing=1) cube(size=1)");
-  EXPECT_EQ(tree.location_of(tree.nodes->nodes[1].place).line, 3u);  // the line break within the text counts
+  EXPECT_EQ(shown(tree), "text(text=<say (\"hi\");\nline\\2\\n>, size=4, spacing=1) cube(size=1)");
+  EXPECT_EQ(tree.location_of(tree.nodes->nodes[1].place).line,
+            3u);  // the line break within the text counts
 }
 
 TEST(RawText, OddTexts) {

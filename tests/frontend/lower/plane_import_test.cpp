@@ -513,9 +513,9 @@ TEST(PlaneImport, APlaceIsThatOfTheNodeThatMakesTheSurface) {
   const ImportedDesign design = import_design(tree, {.keeps_places = true});
   std::vector<size_t> offsets;
   for (const uint32_t node : design.places) offsets.push_back(tree.nodes->nodes[node].place.offset);
-  EXPECT_THAT(offsets, testing::ElementsAre(0u, text.find("linear_extrude"), text.find("render"),
-                                            text.find("cube"), text.rfind("hull"),
-                                            text.rfind("cube")));
+  EXPECT_THAT(offsets,
+              testing::ElementsAre(0u, text.find("linear_extrude"), text.find("render"),
+                                   text.find("cube"), text.rfind("hull"), text.rfind("cube")));
 }
 
 TEST(PlaneImport, ForgetsColoursInside) {

@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "values/function_object.hpp"
 #include "language/make.hpp"
+#include "values/function_object.hpp"
 #include "values/object_memory.hpp"
 #include "values/operators.hpp"
 #include "values/range.hpp"

@@ -100,7 +100,8 @@ Lines places_of(const language::Evaluation& evaluation) {
   const language::SourceFiles& files = *evaluation.files;
   Lines places;
   for (const language::Node& node : evaluation.tree->nodes) {
-    std::string place = std::string(name_of(node.kind)) + (node.is_module_call ? " called at " : " at ");
+    std::string place =
+        std::string(name_of(node.kind)) + (node.is_module_call ? " called at " : " at ");
     if (node.place.file != language::kNoFile && files.has(node.place.file)) {
       place += files[node.place.file].path + ":" + std::to_string(files.line(node.place)) + ":" +
                std::to_string(files.column(node.place));
@@ -273,9 +274,8 @@ class Edits {
   /// Returns false if the design is too large.
   bool compare() {
     const DesignVersion fresh = read_fresh(path(), options_, design_.inputs());
-    const bool is_large =
-        fresh.design && (fresh.source.tree.nodes->size() > kMostNodes ||
-                         fresh.design->scene.primitives.size() > kMostPrimitives);
+    const bool is_large = fresh.design && (fresh.source.tree.nodes->size() > kMostNodes ||
+                                           fresh.design->scene.primitives.size() > kMostPrimitives);
     if (is_large) return false;
     const DesignVersion kept = follower_.read(design_.inputs());
     expect_same_version(kept, fresh);
@@ -292,12 +292,9 @@ class Edits {
     expect_same_picture(cells_, look_.order(kept, Technique::kCells),
                         look_.order(fresh, Technique::kCells));
     const auto probe = [&](const DesignVersion& version) {
-      return Probe{1,
-                   Probe::Purpose::kMeasure,
-                   look_.order(version, Technique::kTiles),
-                   {24.5, 18.5},
-                   0,
-                   version.source.tree};
+      return Probe{
+          1, Probe::Purpose::kMeasure, look_.order(version, Technique::kTiles), {24.5, 18.5},
+          0, version.source.tree};
     };
     expect_same_finding(tiles_, probe(kept), probe(fresh));
   }

@@ -51,9 +51,7 @@ inline constexpr WordTable kNodeNames(std::to_array<std::string_view>({
 static_assert(decltype(kNodeNames)::size() == static_cast<size_t>(NodeKind::kRoof) + 1);
 
 /// Returns the name as it is spelled in a .csg ("sphere").
-constexpr std::string_view name_of(NodeKind kind) {
-  return kNodeNames[static_cast<uint8_t>(kind)];
-}
+constexpr std::string_view name_of(NodeKind kind) { return kNodeNames[static_cast<uint8_t>(kind)]; }
 
 /// All argument names that OpenSCAD writes or that a primitive takes.
 inline constexpr WordTable kArgumentNames(std::to_array<std::string_view>({

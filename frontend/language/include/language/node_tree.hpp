@@ -35,9 +35,9 @@ struct NodeArgument {
 static_assert(sizeof(NodeArgument) == 24);
 
 struct Node {
-  Place place;                  // of the module call that made it; in a .csg, of its name
+  Place place;  // of the module call that made it; in a .csg, of its name
   uint32_t first_argument = 0;
-  uint32_t end = 0;             // index behind its last descendant
+  uint32_t end = 0;  // index behind its last descendant
   NodeKind kind = NodeKind::kGroup;
   uint8_t modifiers = 0;        // CallModifier
   bool is_module_call = false;  // of a module that the design itself defines

@@ -22,7 +22,9 @@ class SourceFile {
       : path(std::move(file_path)), owned_text_(std::move(file_text)), text(owned_text_) {}
   /// The same of a text in memory that somebody else shares. A path that is not absolute is a name.
   SourceFile(std::string file_path, std::shared_ptr<const char[]> bytes, std::size_t size)
-      : path(std::move(file_path)), shared_text_(std::move(bytes)), text(shared_text_.get(), size) {}
+      : path(std::move(file_path)),
+        shared_text_(std::move(bytes)),
+        text(shared_text_.get(), size) {}
   SourceFile(const SourceFile&) = delete;
   SourceFile& operator=(const SourceFile&) = delete;
 

@@ -98,7 +98,7 @@ struct LazyCall {
 
 struct NodeSite {
   NodeKind kind = NodeKind::kGroup;  // where no builtin module makes the node
-  uint32_t module = 0;    // of builtin_modules()
+  uint32_t module = 0;               // of builtin_modules()
   uint8_t modifiers = 0;
   uint32_t parameters = 0;     // how many values kMakeNode pops
   std::string_view call_name;  // of the module, for messages

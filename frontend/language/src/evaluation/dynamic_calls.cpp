@@ -1,8 +1,8 @@
 // Calls whose callee is known when they happen. The slots are: the callee, the number of arguments
 // that are done, the trail's mark, the arguments in their order, the evaluated defaults.
 #include "evaluation/machine.hpp"
-#include "syntax/expression_text.hpp"
 #include "language/make.hpp"
+#include "syntax/expression_text.hpp"
 
 namespace language {
 namespace {

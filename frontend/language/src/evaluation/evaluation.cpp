@@ -9,9 +9,9 @@
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/cache_parts.hpp"
 #include "evaluation/machine.hpp"
+#include "language/make.hpp"
 #include "syntax/parameter_set.hpp"
 #include "syntax/parse_program.hpp"
-#include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/value_text.hpp"
 

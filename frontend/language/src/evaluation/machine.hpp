@@ -20,10 +20,10 @@
 #include "evaluation/unit_cache.hpp"
 #include "evaluation/value_stack.hpp"
 #include "functions/builtin_functions.hpp"
+#include "language/make.hpp"
 #include "language/node_tree.hpp"
 #include "messages/messages.hpp"
 #include "modules/builtin_modules.hpp"
-#include "language/make.hpp"
 #include "values/operators.hpp"
 
 namespace language {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "language/degrees.hpp"
+#include "language/make.hpp"
 #include "modules/makers.hpp"
 #include "modules/node_values.hpp"
-#include "language/make.hpp"
 
 namespace language {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/work_meter.hpp"
-#include "values/level_stack.hpp"
 #include "language/make.hpp"
+#include "values/level_stack.hpp"
 #include "values/too_large.hpp"
 
 namespace language {
