@@ -15,9 +15,8 @@
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/importer.hpp"
-#include "lower/argument_lookup.hpp"
-#include "lower/read_2d.hpp"
 #include "lower/render_text.hpp"
+#include "nodes/extrusion_arguments.hpp"
 #include "render/scene_scale.hpp"
 #include "rendered/openscad_process.hpp"
 #include "samples.hpp"
@@ -40,7 +39,8 @@ constexpr double kDigits = 1e-5;
 constexpr double kGrid = 0x1p-14;
 
 bool has_argument(const NodeTree& tree, const Node& node, language::ArgumentName name) {
-  return !frontend::find_argument(tree, node, name).is_undef();
+  frontend::NodeProblems told;  // when the design was imported
+  return !frontend::NodeReader(tree, node, told).find(name).is_undef();
 }
 
 /// Returns whether OpenSCAD 2021.01 knows all that the subtree says.
@@ -60,7 +60,8 @@ bool is_known(const NodeTree& tree, uint32_t root) {
 bool turns(const NodeTree& tree, const Node& node) {
   if (node.kind != NodeKind::kLinearExtrude) return false;
   frontend::NodeProblems told;  // when the design was imported
-  const frontend::LinearExtrudeArguments given = read_linear_extrude(tree, node, told);
+  frontend::NodeReader reader(tree, node, told);
+  const frontend::LinearExtrudeArguments given = read_linear_extrude(reader);
   return given.height > 0 && (given.twist != 0 || given.top_scale.x != given.top_scale.y);
 }
 
@@ -216,7 +217,8 @@ class ExtrusionJudge {
         exponent == 0 ? design->scene : frontend::scaled(design->scene, exponent);
     if (facets.box().empty() && scene.primitives.empty()) return;
     frontend::NodeProblems told;
-    const Vec2 top = read_linear_extrude(tree_, tree_.nodes[node], told).top_scale;
+    frontend::NodeReader reader(tree_, tree_.nodes[node], told);
+    const Vec2 top = read_linear_extrude(reader).top_scale;
     const double rounding = kGrid * std::max({1.0, top.x, top.y}) * scale;
     const language::Place place = tree_.nodes[node].place;
     const frontend::Location location = design_.location_of(place);

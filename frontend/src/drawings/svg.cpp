@@ -112,9 +112,10 @@ CurvePath read_line(const pugi::xml_node& element) {
 /// A corner of a rectangle, a quarter of an ellipse.
 void add_corner(const Vec2& center, const Vec2& radii, double start, const Vec2& end,
                 CurvePath& path) {
-  constexpr double kQuarter = kTurn / 4;
-  const EllipseArc arc{center, Vec2(radii.x, 0), Vec2(0, radii.y), start * kQuarter, kQuarter};
-  path.arc_to(arc, svg_arc_pieces(kQuarter), end);
+  constexpr double kQuarterTurn = kTurn / 4;
+  const EllipseArc arc{center, Vec2(radii.x, 0), Vec2(0, radii.y), start * kQuarterTurn,
+                       kQuarterTurn};
+  path.arc_to(arc, svg_arc_pieces(kQuarterTurn), end);
 }
 
 CurvePath read_rectangle(const pugi::xml_node& element) {

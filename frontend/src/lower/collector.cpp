@@ -10,18 +10,15 @@
 #include "frontend/stop.hpp"
 #include "hulls/point_hull.hpp"
 #include "lower/faceted_box.hpp"
-#include "lower/file_matrix.hpp"
-#include "lower/import_arguments.hpp"
 #include "lower/inner_parts.hpp"
 #include "lower/leaves.hpp"
-#include "lower/node_roles.hpp"
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
-#include "lower/read_drawing.hpp"
 #include "lower/render_text.hpp"
 #include "lower/rendered_lowering.hpp"
 #include "lower/solid_evaluation.hpp"
 #include "lower/solid_lowering.hpp"
+#include "lower/solid_shape.hpp"
 #include "lower/typed_numbers.hpp"
 
 namespace frontend {
@@ -29,11 +26,6 @@ namespace {
 
 using csgcore::Affine;
 using csgcore::Primitive;
-
-bool is_identity(const FileMatrix& file) {
-  return file.divisor == 1 && file.map.linear == csgcore::Mat3(1.0) &&
-         file.map.translation == csgcore::Vec3(0.0);
-}
 
 constexpr std::string_view kBecauseTooLarge =
     "it is too large, or too far from the origin: scale the design to between 1e-90 and 1e90 "
@@ -150,7 +142,7 @@ void Collector::survey() {
       ++primitive_nodes;
       if (options_.keeps_places) places.push_back(i);
     }
-    solids += role_of(node.kind) == Role::kSolid;
+    solids += row_of(node.kind).role == Role::kSolid;
     matrices += node.kind == NodeKind::kMultmatrix;
   }
   ids_.push_back(primitive_nodes);
@@ -187,22 +179,23 @@ bool Collector::visit(uint32_t index) {
   if (contexts_.back().in_leaf && (node.modifiers & language::kBackgroundModifier) != 0) {
     leave_leaf(index);
   }
-  switch (names_drawing(tree_, node) ? Role::kPlane : role_of(node.kind)) {
+  const NodeRow& row = row_of(node.kind);
+  switch (names_drawing(tree_, node) ? Role::kWhole : row.role) {
     case Role::kSolid:
       add_solid(index);
       return false;
     case Role::kOperation:
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
-      if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index);
+      if (row.is_one_leaf && options_.picture != PictureKind::kRendered) enter_leaf(index);
       if (node.kind == NodeKind::kFill && has_children(index)) {
         problems.add(node, {": fill() not yet implemented for 3D", "it is drawn as a union"});
       }
       return true;
-    case Role::kPlane:
+    case Role::kWhole:
       add_plane(index);
       return false;
-    case Role::kUnsupportedOperation:
+    case Role::kUnknown:
       break;
   }
   // Without children it makes nothing, and nothing is missing.
@@ -216,7 +209,8 @@ void Collector::leave_out(uint32_t node, const std::string& why) {
 }
 
 void Collector::enter_matrix(uint32_t node) {
-  const FileMatrix file = read_matrix(tree_, tree_.nodes[node], problems);
+  NodeReader reader(tree_, tree_.nodes[node], problems);
+  const FileMatrix file = read_matrix(reader);
   if (is_identity(file)) return;
   Context context = contexts_.back();
   context.node = node;
@@ -229,7 +223,8 @@ void Collector::enter_matrix(uint32_t node) {
 }
 
 void Collector::enter_color(uint32_t node) {
-  const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], problems);
+  NodeReader reader(tree_, tree_.nodes[node], problems);
+  const NodeColor color = read_color(reader);
   if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
@@ -257,71 +252,35 @@ void Collector::leave_leaf(uint32_t node) {
   contexts_.push_back(context);
 }
 
-/// The node as a primitive under the matrices around it, without colour and id, and the faces that
-/// it is made of. False: it is the empty set, or left out.
-bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets,
-                           const SolidOfFaces*& faces) {
+/// The node's solid, where its sheet stands for what has no volume. Nothing: it is the empty set,
+/// or left out.
+std::optional<SolidShape> Collector::read_solid(uint32_t index) {
   const Node& node = tree_.nodes[index];
-  const Affine& to_world = frames[contexts_.back().frame].to_world;
-  if (node.kind == NodeKind::kCube) {
-    primitive = polyhedra.box(read_cube(tree_, node, problems), to_world);
-    return csgcore::has_valid_shape(primitive);
-  }
-  if (node.kind == NodeKind::kSphere || node.kind == NodeKind::kCylinder) {
-    primitive.local_to_world = to_world;
-    return read_round(index, primitive, facets);
-  }
-  if (contexts_.back().flattened) return false;
-  std::string file;
-  const SolidOfFaces* solid =
-      node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index, file);
-  if (solid == nullptr) return false;
-  if (solid->is_empty()) {
+  NodeReader reader(tree_, node, problems);
+  std::optional<SolidShape> shape =
+      solid_shape(read_node(reader, {options_, fonts}), node, {polyhedra, files}, problems);
+  if (!shape || shape->faces == nullptr) return shape;
+  const SolidOfFaces& faces = *shape->faces;
+  if (faces.is_empty()) {
     // Next to the largest coordinate the others are nothing.
-    if (solid->exponent > kLargestExponent) leave_out(index, std::string(kBecauseTooLarge));
-    return false;
+    if (faces.exponent > kLargestExponent) leave_out(index, std::string(kBecauseTooLarge));
+    return std::nullopt;
   }
-  primitive = solid->sheet ? solid->under(solid->sheet, to_world) : solid->under(to_world);
-  faces = solid;
-  if (solid->sheet) {
-    note_sheet(node, file, problems);
-  } else if (solid->mesh && !solid->mesh->is_closed()) {
-    note_open_mesh(node, *solid->mesh, file, problems);
+  if (faces.sheet) {
+    shape->primitive = faces.under(faces.sheet, {});
+    note_sheet(node, shape->file, problems);
+  } else if (faces.mesh && !faces.mesh->is_closed()) {
+    note_open_mesh(node, *faces.mesh, shape->file, problems);
   }
-  return true;
-}
-
-bool Collector::read_round(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets) {
-  RoundPrimitive round = read_round_primitive(tree_, tree_.nodes[index], problems);
-  round.primitive.local_to_world = primitive.local_to_world;
-  primitive = std::move(round.primitive);
-  facets = round.facets;
-  if (options_.fn) facets.fn = *options_.fn;
-  return csgcore::has_valid_shape(primitive);
-}
-
-const SolidOfFaces* Collector::read_faces(uint32_t index) {
-  uint64_t unfinite_faces = 0;  // none: the points are finite
-  return &polyhedra.solid(read_polyhedron(tree_, tree_.nodes[index], problems), unfinite_faces);
-}
-
-/// The solid of an import or a surface, and the name of its file; null if there is none.
-const SolidOfFaces* Collector::read_file(uint32_t index, std::string& name) {
-  const Node& node = tree_.nodes[index];
-  const FileArguments arguments = read_file_arguments(tree_, node, problems);
-  const ImportedFile& file =
-      node.kind == NodeKind::kSurface ? files.surface(arguments) : files.import(arguments);
-  if (!file.problem.empty()) problems.add(node, {": " + file.problem, file.todo});
-  name = arguments.file;
-  return file.solid;
+  return shape;
 }
 
 void Collector::add_solid(uint32_t index) {
   const Context& context = contexts_.back();
-  Primitive primitive;
-  csgcore::FacetSettings facets;
-  const SolidOfFaces* faces = nullptr;
-  if (!read_solid(index, primitive, facets, faces) || context.flattened) return;
+  std::optional<SolidShape> shape = read_solid(index);
+  if (!shape || context.flattened) return;
+  auto& [primitive, facets, faces, file] = *shape;
+  primitive.local_to_world = compose(frames[context.frame].to_world, primitive.local_to_world);
   uint32_t frame = context.frame;
   if (primitive.local_to_world.determinant() == 0 && fit_of(primitive) == Fit::kFlat) {
     if (!flatten(index, facets, primitive)) return;
@@ -422,7 +381,7 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
 PlaneSubtree Collector::read_plane(uint32_t root) {
   PlaneSubtree subtree(tree_, root);
   for (uint32_t i = root; i < tree_.nodes[root].end; ++i) {
-    subtree.take(i, ids_[i], options_, {fonts, files}, problems);
+    subtree.take(ids_[i], {options_, fonts}, files, problems);
   }
   // The leaf's primitives have the id of its first primitive node.
   const bool has_id = ids_[tree_.nodes[root].end] > ids_[root];
@@ -453,7 +412,7 @@ void Collector::add_plane(uint32_t root) {
 /// plane figure if its first child is one.
 bool Collector::is_of_either_dimension(uint32_t node) {
   if (options_.picture != PictureKind::kRendered) {
-    return is_leaf_of_either(tree_.nodes[node].kind) && !contexts_.back().in_leaf;
+    return row_of(tree_.nodes[node].kind).is_one_leaf && !contexts_.back().in_leaf;
   }
   if (node < top_node_end_) return false;
   top_node_end_ = tree_.nodes[node].end;
@@ -463,17 +422,15 @@ bool Collector::is_of_either_dimension(uint32_t node) {
 int Collector::dimension_of(uint32_t root) const {
   for (uint32_t i = root; i < tree_.nodes[root].end;) {
     const Node& node = tree_.nodes[i];
-    const bool is_drawing = names_drawing(tree_, node);
-    const bool is_known = role_of(node.kind) != Role::kUnsupportedOperation;
+    const NodeRow& row = row_of(node.kind);
     const bool is_background =
         (modifiers_of(tree_, selected, i) & language::kBackgroundModifier) != 0;
-    if (is_background || !is_known) {
+    if (is_background || row.role == Role::kUnknown) {
       i = node.end;
       continue;
     }
-    if (is_extrusion(node.kind)) return 3;
-    if (role_of(node.kind) == Role::kSolid) return is_drawing ? 2 : 3;
-    if (is_plane_primitive(node.kind) || node.kind == NodeKind::kProjection) return 2;
+    if (row.role == Role::kSolid && names_drawing(tree_, node)) return 2;
+    if (row.dimension != 0) return row.dimension;
     ++i;
   }
   return 0;
@@ -520,11 +477,11 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
   for (const InnerPart& part : inner_parts(subtree)) {
     Context inner = context;
     for (const uint32_t node : part.around) {
-      if (const auto* color = std::get_if<NodeColor>(&subtree.solid(node))) {
+      if (const auto* color = std::get_if<NodeColor>(&subtree.data(node))) {
         inner.color = inner_color(inner.color, *color);
         continue;
       }
-      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(node));
+      const FileMatrix& file = subtree.data<FileMatrix>(node);
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
@@ -542,12 +499,12 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   };
   PlaneEvaluation evaluation(
       subtree, told, miss, [&](const PlaneEvaluation& planes, uint32_t node) {
-        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files, figure_solids_}, told);
+        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files}, figure_solids_, told);
         std::optional<FigureOperations> result = solids.projection(node);
         if (!result) miss(node, solids.failure());
         return result;
       });
-  missing.is_of_plane = !evaluation.is_solid() && !is_extrusion(subtree.syntax(root).kind);
+  missing.is_of_plane = !evaluation.is_solid() && !subtree.row(root).is_extrusion();
   const auto is_put_off = [&] { return !missing.nodes.empty() && asks_for(subtree); };
   if (is_put_off()) return Presence::kLeftOut;
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
@@ -569,7 +526,7 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
 Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
                                     const Context& context, NodeProblems& told, Missing& missing) {
   const uint32_t root = subtree.root();
-  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files, figure_solids_}, told);
+  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files}, figure_solids_, told);
   std::optional<SolidValue> value = solids.run();
   if (!value) {
     missing.nodes.push_back({root, solids.failure()});

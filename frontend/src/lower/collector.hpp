@@ -21,12 +21,12 @@
 #include "lower/hull_pool.hpp"
 #include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
-#include "lower/node_problems.hpp"
 #include "lower/pending_solids.hpp"
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
 #include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
+#include "lower/solid_shape.hpp"
 
 namespace frontend {
 
@@ -118,8 +118,7 @@ class Collector {
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);
-  bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
-                  const SolidOfFaces*& faces);
+  std::optional<SolidShape> read_solid(uint32_t node);
   void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
                  const Context& context);
   PlaneSubtree read_plane(uint32_t root);
@@ -153,9 +152,6 @@ class Collector {
   Presence take_rendering(const PendingSolid& pending, const Rendering& rendering,
                           const Context& context, PlaneLeaf& leaf);
   Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
-  bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
-  const SolidOfFaces* read_faces(uint32_t node);
-  const SolidOfFaces* read_file(uint32_t node, std::string& name);
 
   const DesignTree& design_;
   const NodeTree& tree_;

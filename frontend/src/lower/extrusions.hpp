@@ -7,7 +7,6 @@
 #include "lower/figure_solids.hpp"
 #include "lower/figure_tree.hpp"
 #include "lower/lowered_subtree.hpp"
-#include "lower/node_problems.hpp"
 
 namespace frontend {
 

@@ -1,8 +1,5 @@
 #include "lower/figure_tree.hpp"
 
-#include "lower/node_roles.hpp"
-#include "lower/read_drawing.hpp"
-
 namespace frontend {
 namespace {
 
@@ -21,7 +18,7 @@ class FigureTreeWriter {
   }
 
   FigureTree write() {
-    const bool is_extrusion = frontend::is_extrusion(subtree_.syntax(subtree_.root()).kind);
+    const bool is_extrusion = subtree_.row(subtree_.root()).is_extrusion();
     if (is_extrusion && subtree_.drawing(subtree_.root()) != nullptr) {
       add_figures(subtree_.root());
       return {std::move(figures_), builder_.finish()};
@@ -54,41 +51,29 @@ class FigureTreeWriter {
     const Presence presence = evaluation_.presence(node);
     if (presence == Presence::kEmpty) builder_.empty();
     if (presence != Presence::kSolid) return end;
-    switch (subtree_.syntax(node).kind) {
-      case NodeKind::kCircle:
-      case NodeKind::kSquare:
-      case NodeKind::kPolygon: {
-        const FigureNode& data = subtree_.data<FigureNode>(node);
-        add(*data.figure, node, data.fragments);
-        return end;
-      }
-      case NodeKind::kText:
-        builder_.open(Op::kUnion);
-        for (const PlacedGlyph& letter : subtree_.data<TextNode>(node).letters) add(letter, node);
-        builder_.close();
-        return end;
-      case NodeKind::kProjection:
-        add_operations(node);
-        return end;
-      case NodeKind::kImport:
-      case NodeKind::kHull:
-      case NodeKind::kMinkowski:
-      case NodeKind::kOffset:
-      case NodeKind::kFill:
-        add_figures(node);
-        return end;
-      case NodeKind::kMultmatrix:
-        open(node, subtree_.data<MatrixNode>(node).matrix);
-        break;
-      case NodeKind::kResize: {
-        HealedMatrix matrix;
-        matrix.map = in_space(evaluation_.resize_map(node));
-        open(node, matrix);
-        break;
-      }
-      default:
-        builder_.open(operation_of(subtree_.syntax(node).kind));
-        open_.push_back({end, open_.back().frame, open_.back().map});
+    const NodeData& data = subtree_.data(node);
+    if (const auto* figure = std::get_if<FigureNode>(&data)) {
+      add(*figure->figure, node, figure->fragments);
+      return end;
+    }
+    if (const auto* text = std::get_if<TextNode>(&data)) {
+      builder_.open(Op::kUnion);
+      for (const PlacedGlyph& letter : text->letters) add(letter, node);
+      builder_.close();
+      return end;
+    }
+    if (std::holds_alternative<ProjectionNode>(data)) {
+      add_operations(node);
+      return end;
+    }
+    if (std::holds_alternative<FileMatrix>(data) || std::holds_alternative<ResizeArguments>(data)) {
+      open(node, evaluation_.matrix(node));
+    } else if (subtree_.drawing(node) != nullptr || subtree_.row(node).joins_figures) {
+      add_figures(node);
+      return end;
+    } else {
+      builder_.open(subtree_.row(node).op);
+      open_.push_back({end, open_.back().frame, open_.back().map});
     }
     return node + 1;
   }

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lower/import_arguments.hpp"
 #include "lower/import_polyhedra.hpp"
-#include "lower/read_drawing.hpp"
+#include "nodes/file_arguments.hpp"
 
 namespace frontend {
 

@@ -13,7 +13,6 @@
 #include "lower/composition.hpp"
 #include "lower/leaf_boxes.hpp"
 #include "lower/leaves.hpp"
-#include "lower/node_roles.hpp"
 #include "lower/plates.hpp"
 #include "lower/products.hpp"
 #include "lower/resolved_modifiers.hpp"
@@ -76,7 +75,7 @@ class Emitter {
       } else if (collected_.primitive_of[i] != kNone) {
         add_primitive(i);
         i = node.end;
-      } else if (role_of(node.kind) != Role::kOperation || node.end == i + 1) {
+      } else if (row_of(node.kind).role != Role::kOperation || node.end == i + 1) {
         builder().empty();
         i = node.end;
       } else {
@@ -108,7 +107,7 @@ class Emitter {
       add_leaf(leaf_of_compound_[compound], is_highlighted);
       return node.end;
     }
-    const Op op = operation_of(node.kind);
+    const Op op = row_of(node.kind).op;
     const bool keeps_highlighted = op != Op::kUnion || (!modifiers_.nodes.empty() &&
                                                         modifiers_.nodes[index].keeps_highlighted);
     if (compound == kNone) {

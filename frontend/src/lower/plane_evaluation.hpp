@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
+#include "heal/matrix_healing.hpp"
 #include "lower/figure_operations.hpp"
-#include "lower/node_problems.hpp"
 #include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
 #include "plane/figure.hpp"
 #include "plane/outlines.hpp"
+#include "plane/plane_map.hpp"
 
 namespace frontend {
 
@@ -30,6 +30,12 @@ class PlaneEvaluation {
   PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& problems, LeaveOut leave_out,
                   Project project);
 
+  const NodeRow& row(uint32_t node) const { return subtree_.row(node); }
+  template <typename Data>
+  const Data& data(uint32_t node) const {
+    return subtree_.data<Data>(node);
+  }
+
   /// What the node is as an operand of the one around it; of the root, on its own. Of an extrusion
   /// that is the root, what its children are together.
   Presence presence(uint32_t node) const { return at(node).presence; }
@@ -41,9 +47,12 @@ class PlaneEvaluation {
   /// Returns figures whose union is the node's, in the coordinates around it. Of an extrusion that
   /// is the root, the figure is that of its children. Some node on the way to the root combines
   /// outlines, or find_all_figures() was called.
-  std::span<const Figure> figures(uint32_t node) const { return at(node).figures; }
-  /// Returns the map of a resize node that has figures.
-  const PlaneMap& resize_map(uint32_t node) const { return at(node).map; }
+  const std::vector<Figure>& figures(uint32_t node) const { return at(node).figures; }
+  /// Returns the matrix of a multmatrix or resize node that has figures.
+  const HealedMatrix& matrix(uint32_t node) const { return at(node).matrix; }
+  void set_map(uint32_t node, const PlaneMap& map) { at(node).matrix.map = in_space(map); }
+  /// Returns figures under that matrix.
+  std::vector<Figure> moved(std::vector<Figure> figures, uint32_t node) const;
   /// Returns what a projection node that is solid makes, in the coordinates around it.
   const FigureOperations& projection(uint32_t node) const { return at(node).projection; }
   /// Finds the figures of all nodes.
@@ -64,7 +73,7 @@ class PlaneEvaluation {
     uint8_t dimension = 0;  // 2 or 3; 0: it has none
     bool has_figures = false;
     std::vector<Figure> figures;
-    PlaneMap map;
+    HealedMatrix matrix;
     FigureOperations projection;
   };
 
@@ -77,9 +86,6 @@ class PlaneEvaluation {
   Presence combined_presence(uint32_t node) const;
   void find_figures(uint32_t node);
   std::optional<std::vector<Figure>> combined_figures(uint32_t node);
-  std::optional<std::vector<Figure>> figures_of_operation(uint32_t node) const;
-  std::optional<std::vector<Figure>> figures_of_minkowski(uint32_t node) const;
-  PlaneMap map_of_resize(uint32_t node, std::span<const Figure> figures) const;
 
   const PlaneSubtree& subtree_;
   NodeProblems& problems_;

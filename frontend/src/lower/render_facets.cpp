@@ -6,9 +6,7 @@
 
 #include "base/primitive_traits.hpp"
 #include "csgcore/facets.hpp"
-#include "lower/import_arguments.hpp"
-#include "lower/plane_subtree.hpp"
-#include "lower/read_2d.hpp"
+#include "nodes/node_row.hpp"
 
 namespace frontend {
 namespace {
@@ -37,15 +35,16 @@ int most_fragments(const csgcore::FacetSettings& facets) {
 
 RoundLeaf round_leaf(const NodeTree& tree, const Node& node, const ImportOptions& options) {
   NodeProblems told;  // when the node was taken
+  NodeReader reader(tree, node, told);
   RoundLeaf leaf;
   switch (node.kind) {
     case NodeKind::kSphere:
     case NodeKind::kCylinder:
     case NodeKind::kCircle: {
-      const RoundPrimitive round = read_round_primitive(tree, node, told);
+      const RoundNode round = chosen(
+          options, node.kind == NodeKind::kCylinder ? read_cylinder(reader) : read_sphere(reader));
       leaf.is_round = csgcore::has_valid_shape(round.primitive);
       leaf.facets = round.facets;
-      if (options.fn) leaf.facets.fn = *options.fn;
       if (leaf.is_round) {
         leaf.own = traits_of(round.primitive.shape()).fragments(round.primitive, leaf.facets);
       }
@@ -55,8 +54,7 @@ RoundLeaf round_leaf(const NodeTree& tree, const Node& node, const ImportOptions
     case NodeKind::kOffset:
     case NodeKind::kText:
       leaf.is_round = true;
-      leaf.facets = read_facet_settings(tree, node);
-      if (options.fn) leaf.facets.fn = *options.fn;
+      leaf.facets = chosen(options, reader.facets());
       leaf.own = most_fragments(leaf.facets);
       break;
     default:

@@ -10,12 +10,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "csg/argument_value.hpp"
-#include "lower/file_matrix.hpp"
-#include "lower/import_arguments.hpp"
-#include "lower/node_roles.hpp"
-#include "lower/read_2d.hpp"
 #include "lower/render_facets.hpp"
+#include "nodes/node_row.hpp"
 
 namespace frontend {
 namespace {
@@ -42,7 +38,7 @@ std::string string_literal(std::string_view text) {
 }
 
 /// Whether it makes a solid in coordinates that no other node of the text moves.
-bool is_solid_leaf(NodeKind kind) { return role_of(kind) == Role::kSolid || is_extrusion(kind); }
+bool is_solid_leaf(NodeKind kind) { return row_of(kind).dimension == 3; }
 
 std::string matrix_text(const csgcore::Affine& map) {
   std::string text = "multmatrix([";
@@ -115,7 +111,8 @@ class RenderText {
 
   void write_matrix(uint32_t index) {
     NodeProblems told;  // when the node was taken
-    const FileMatrix file = read_matrix(tree_, tree_.nodes[index], told);
+    NodeReader reader(tree_, tree_.nodes[index], told);
+    const FileMatrix file = read_matrix(reader);
     if (!is_affine(file)) {  // nothing is left
       text_ += "multmatrix([[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]])";
       return;
@@ -126,7 +123,9 @@ class RenderText {
   }
 
   void write_resize(uint32_t index) {
-    const ResizeArguments resize = read_resize(tree_, tree_.nodes[index]);
+    NodeProblems told;  // when the node was taken
+    NodeReader reader(tree_, tree_.nodes[index], told);
+    const ResizeArguments resize = read_resize(reader);
     std::string sizes, follows;
     for (size_t axis = 0; axis < 3; ++axis) {
       const double size = resize.size[axis] * (is_scaled(index) ? kRenderScale : 1);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "lower/node_roles.hpp"
+#include "nodes/node_row.hpp"
 
 namespace frontend {
 namespace {
 
 /// A node whose operands are being looked at.
-struct Open {
+struct OpenOperation {
   uint32_t node;
   NodeKind kind;
   uint32_t end;
@@ -19,7 +19,7 @@ struct Open {
   ResolvedNode first{};
 };
 
-void add_box(Open& open, const csgcore::Box& box) {
+void add_box(OpenOperation& open, const csgcore::Box& box) {
   if (!open.any_solid) {
     open.box = box;
   } else if (open.kind != NodeKind::kIntersection) {
@@ -30,7 +30,7 @@ void add_box(Open& open, const csgcore::Box& box) {
   }
 }
 
-void add_operand(Open& open, const ResolvedNode& node_state, const csgcore::Box& box) {
+void add_operand(OpenOperation& open, const ResolvedNode& node_state, const csgcore::Box& box) {
   if (node_state.presence == Presence::kAbsent) return;
   if (node_state.presence == Presence::kBackground) {
     open.any_background = true;
@@ -49,7 +49,7 @@ void add_operand(Open& open, const ResolvedNode& node_state, const csgcore::Box&
   }
 }
 
-Presence presence_of(const Open& open) {
+Presence presence_of(const OpenOperation& open) {
   if (open.kind == NodeKind::kDifference) {
     if (open.has_first) return open.first.presence;
     return open.any_background ? Presence::kBackground : Presence::kEmpty;
@@ -61,10 +61,10 @@ Presence presence_of(const Open& open) {
 }
 
 /// The node as an operand, before its own modifiers count.
-ResolvedNode close(const Open& open) {
+ResolvedNode close(const OpenOperation& open) {
   ResolvedNode node_state;
   node_state.presence = presence_of(open);
-  if (node_state.presence == Presence::kSolid && !is_leaf_of_either(open.kind)) {
+  if (node_state.presence == Presence::kSolid && !row_of(open.kind).is_one_leaf) {
     node_state.keeps_highlighted = open.kind == NodeKind::kDifference
                                        ? open.first.highlighted
                                        : open.all_highlighted && open.any_solid;
@@ -104,7 +104,7 @@ class ModifierResolver {
       }
     }
     close_until(selected_.end);
-    const Open& top = open_.back();
+    const OpenOperation& top = open_.back();
     resolved_.keeps_highlighted = top.any_solid && top.all_highlighted;
     collect_roots();
     return std::move(resolved_);
@@ -113,7 +113,7 @@ class ModifierResolver {
  private:
   void close_until(uint32_t position) {
     while (open_.size() > 1 && open_.back().end <= position) {
-      const Open done = open_.back();
+      const OpenOperation done = open_.back();
       open_.pop_back();
       finish(done.node, close(done), done.box);
     }
@@ -149,7 +149,7 @@ class ModifierResolver {
           (modifiers_of(tree_, selected_, i) & language::kBackgroundModifier) != 0 &&
           node_state.presence == Presence::kBackground;
       const bool carried_on = !own_background && parent.keeps_highlighted;
-      const bool in_leaf = is_leaf_of_either(parent.kind);
+      const bool in_leaf = row_of(parent.kind).is_one_leaf;
       if (own_background && !in_leaf) resolved_.background.push_back(i);
       if (node_state.highlighted && !carried_on && !in_leaf &&
           highlight_ends.size() < kMostNestedHighlights) {
@@ -165,7 +165,7 @@ class ModifierResolver {
   NodeRange selected_;
   std::span<const LeafState> leaves_;
   ResolvedModifiers resolved_;
-  std::vector<Open> open_;
+  std::vector<OpenOperation> open_;
 };
 
 }  // namespace

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "csgcore/primitive.hpp"
-#include "lower/node_problems.hpp"
-#include "lower/plane_subtree.hpp"
 #include "lower/slices.hpp"
+#include "nodes/extrusion_arguments.hpp"
 
 namespace frontend {
 

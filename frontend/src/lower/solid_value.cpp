@@ -97,6 +97,12 @@ SolidPart part_of(Primitive primitive, const csgcore::FacetSettings& facets) {
   return part;
 }
 
+SolidPart faceted_part(Primitive mesh, bool is_smooth) {
+  SolidPart part = part_of(std::move(mesh), {});
+  part.is_faceted = is_smooth;
+  return part;
+}
+
 SolidPart part_of(SupportSet body, const Box& box) {
   SolidPart part;
   part.box = box.empty() ? box_of(body.generators) : box;

@@ -32,6 +32,8 @@ struct SolidPart {
 
 /// Returns the part that is a primitive, in the coordinates of its matrix.
 SolidPart part_of(csgcore::Primitive primitive, const csgcore::FacetSettings& facets);
+/// Returns the part that is a mesh. `is_smooth`: it stands for something round.
+SolidPart faceted_part(csgcore::Primitive mesh, bool is_smooth);
 /// Returns the part that is the hull of the generators. Without a box it is theirs.
 SolidPart part_of(SupportSet body, const csgcore::Box& box = {});
 

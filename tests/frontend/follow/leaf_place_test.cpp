@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "csg/node_label.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "language/evaluation.hpp"
+#include "nodes/node_label.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

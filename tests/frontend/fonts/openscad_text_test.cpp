@@ -71,7 +71,8 @@ Polygons own_outlines(const std::string& csg) {
   FileImports files({}, polyhedra);
   NodeProblems problems;
   PlaneSubtree subtree(*tree.nodes, 0);
-  subtree.take(0, 0, {.facets = Facets::kAll}, {fonts, files}, problems);
+  const ImportOptions options{.facets = Facets::kAll};
+  subtree.take(0, {options, fonts}, files, problems);
   std::vector<Figure> letters;
   for (const PlacedGlyph& letter : subtree.data<TextNode>(0).letters) {
     letters.push_back(mapped(letter.place, *letter.shape.figure));

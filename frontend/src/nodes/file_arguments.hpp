@@ -1,15 +1,25 @@
-// Nodes that read a drawing: import() of a DXF or SVG, and the extrusions of older designs.
+// Nodes that name files: import() and surface(), and the extrusions of older designs.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "drawings/drawing.hpp"
-#include "frontend/design_tree.hpp"
-#include "lower/node_problems.hpp"
+#include "nodes/node_reader.hpp"
 
 namespace frontend {
+
+/// What a node says of the file of its solid. The file's name is as it stands in the design, empty
+/// if it is missing.
+struct FileArguments {
+  std::string file;
+  bool is_surface = false;  // else of an import
+  bool is_centered = false, is_inverted = false;
+};
+FileArguments read_import(NodeReader& reader);
+FileArguments read_surface(NodeReader& reader);
 
 /// Returns whether the node's figure is a drawing: that of an import by its file's suffix, and that
 /// of an extrusion where it names a file.
@@ -32,7 +42,6 @@ struct DrawingArguments {
 };
 
 /// The node names a drawing. Extrusions read DXF alone, as in OpenSCAD.
-DrawingArguments read_drawing_arguments(const NodeTree& tree, const Node& node,
-                                        NodeProblems& problems);
+DrawingArguments read_drawing(NodeReader& reader);
 
 }  // namespace frontend

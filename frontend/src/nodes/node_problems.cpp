@@ -1,4 +1,4 @@
-#include "lower/node_problems.hpp"
+#include "nodes/node_problems.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,11 +1,11 @@
-#include "csg/node_label.hpp"
+#include "nodes/node_label.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <span>
 #include <string_view>
 
-#include "csg/argument_value.hpp"
+#include "nodes/node_row.hpp"
 
 namespace frontend {
 namespace {
@@ -13,74 +13,33 @@ namespace {
 /// Longer texts and lists are cut.
 constexpr std::size_t kMostCharacters = 24, kMostElements = 4;
 
-/// The arguments that tell what a node is, in the order in which they are shown.
-std::span<const language::ArgumentName> telling_arguments(NodeKind kind) {
-  static constexpr language::ArgumentName kSphere[] = {"r"}, kCylinder[] = {"h", "r1", "r2"},
-                                          kSize[] = {"size"}, kText[] = {"text"},
-                                          kLinear[] = {"height", "twist", "scale"},
-                                          kAngle[] = {"angle"}, kFile[] = {"file"},
-                                          kCut[] = {"cut"}, kOffset[] = {"r", "delta"},
-                                          kResize[] = {"newsize"};
-  switch (kind) {
-    case NodeKind::kSphere:
-    case NodeKind::kCircle:
-      return kSphere;
-    case NodeKind::kCylinder:
-      return kCylinder;
-    case NodeKind::kCube:
-    case NodeKind::kSquare:
-      return kSize;
-    case NodeKind::kText:
-      return kText;
-    case NodeKind::kLinearExtrude:
-      return kLinear;
-    case NodeKind::kRotateExtrude:
-      return kAngle;
-    case NodeKind::kImport:
-    case NodeKind::kSurface:
-      return kFile;
-    case NodeKind::kProjection:
-      return kCut;
-    case NodeKind::kOffset:
-      return kOffset;
-    case NodeKind::kResize:
-      return kResize;
-    default:
-      return {};
-  }
-}
-
 class Writer {
  public:
-  Writer(const NodeTree& tree, const Node& node) : tree_(tree), node_(node) {}
+  Writer(const NodeTree& tree, const Node& node)
+      : tree_(tree), node_(node), row_(row_of(node.kind)) {}
 
   std::string label() {
     text_ = name_of(node_.kind);
     text_ += '(';
-    if (node_.kind == NodeKind::kPolyhedron) {
-      add_count("faces", "faces");
-    } else if (node_.kind == NodeKind::kPolygon) {
-      add_count("points", "points");
-    } else {
+    if (row_.counted.is_positional()) {
       add_arguments();
+    } else {
+      add_count();
     }
     return std::move(text_ += ')');
   }
 
  private:
-  /// Returns the argument of that name; undef if there is none.
-  ArgumentValue find(language::ArgumentName name) const {
-    for (const language::NodeArgument& argument : tree_.arguments_of(node_)) {
-      if (argument.name == name) return {tree_, argument};
-    }
-    return {};
+  ArgumentValue find(language::ArgumentName name) {
+    NodeProblems untold;
+    return NodeReader(tree_, node_, untold).find(name);
   }
 
-  void add_count(language::ArgumentName name, std::string_view unit) {
-    const ArgumentValue list = find(name);
+  void add_count() {
+    const ArgumentValue list = find(row_.counted);
     if (!list.is_list()) return;
     text_ += std::to_string(list.elements().size()) += ' ';
-    text_ += unit;
+    text_ += row_.counted.text();
   }
 
   void add_arguments() {
@@ -88,7 +47,7 @@ class Writer {
       if (argument.name.is_positional()) add({}, {tree_, argument});
     }
     const bool is_straight = node_.kind == NodeKind::kCylinder && are_equal(find("r1"), find("r2"));
-    for (const language::ArgumentName name : telling_arguments(node_.kind)) {
+    for (const language::ArgumentName name : row_.label) {
       const ArgumentValue value = find(name);
       if (is_usual(name, value)) continue;
       if (is_straight && name == "r2") continue;
@@ -175,6 +134,7 @@ class Writer {
 
   const NodeTree& tree_;
   const Node& node_;
+  const NodeRow& row_;
   std::string text_;
 };
 
