@@ -15,8 +15,8 @@
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/importer.hpp"
-#include "lower/render_text.hpp"
-#include "nodes/extrusion_arguments.hpp"
+#include "subtrees/render_text.hpp"
+#include "subtrees/node_row.hpp"
 #include "render/scene_scale.hpp"
 #include "rendered/openscad_process.hpp"
 #include "samples.hpp"
@@ -57,11 +57,17 @@ bool is_known(const NodeTree& tree, uint32_t root) {
   return true;
 }
 
-bool turns(const NodeTree& tree, const Node& node) {
-  if (node.kind != NodeKind::kLinearExtrude) return false;
+/// What a linear_extrude node says.
+frontend::LinearExtrudeArguments arguments_of(const NodeTree& tree, const Node& node) {
   frontend::NodeProblems told;  // when the design was imported
   frontend::NodeReader reader(tree, node, told);
-  const frontend::LinearExtrudeArguments given = read_linear_extrude(reader);
+  frontend::DesignFonts fonts({});  // which it has none of
+  return std::get<frontend::LinearExtrudeNode>(read_node(reader, {{}, fonts})).arguments;
+}
+
+bool turns(const NodeTree& tree, const Node& node) {
+  if (node.kind != NodeKind::kLinearExtrude) return false;
+  const frontend::LinearExtrudeArguments given = arguments_of(tree, node);
   return given.height > 0 && (given.twist != 0 || given.top_scale.x != given.top_scale.y);
 }
 
@@ -216,9 +222,7 @@ class ExtrusionJudge {
     const csgcore::Scene scene =
         exponent == 0 ? design->scene : frontend::scaled(design->scene, exponent);
     if (facets.box().empty() && scene.primitives.empty()) return;
-    frontend::NodeProblems told;
-    frontend::NodeReader reader(tree_, tree_.nodes[node], told);
-    const Vec2 top = read_linear_extrude(reader).top_scale;
+    const Vec2 top = arguments_of(tree_, tree_.nodes[node]).top_scale;
     const double rounding = kGrid * std::max({1.0, top.x, top.y}) * scale;
     const language::Place place = tree_.nodes[node].place;
     const frontend::Location location = design_.location_of(place);

@@ -19,7 +19,7 @@
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"
 #include "language/parameter_set_file.hpp"
-#include "lower/import_files.hpp"
+#include "solids/import_files.hpp"
 #include "process/memory_file.hpp"
 
 namespace frontend {

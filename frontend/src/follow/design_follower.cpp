@@ -21,7 +21,7 @@
 #include "frontend/files.hpp"
 #include "frontend/stop.hpp"
 #include "language/evaluation_cache.hpp"
-#include "lower/hull_pool.hpp"
+#include "solids/hull_pool.hpp"
 
 namespace frontend {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "base/lower_case.hpp"
-#include "lower/import_files.hpp"
+#include "solids/import_files.hpp"
 
 namespace frontend {
 namespace {

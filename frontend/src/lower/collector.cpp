@@ -9,17 +9,16 @@
 #include "base/primitive_traits.hpp"
 #include "frontend/stop.hpp"
 #include "hulls/point_hull.hpp"
-#include "lower/faceted_box.hpp"
-#include "lower/inner_parts.hpp"
-#include "lower/leaves.hpp"
-#include "lower/plane_evaluation.hpp"
-#include "lower/plane_lowering.hpp"
-#include "lower/render_text.hpp"
-#include "lower/rendered_lowering.hpp"
-#include "lower/solid_evaluation.hpp"
-#include "lower/solid_lowering.hpp"
-#include "lower/solid_shape.hpp"
 #include "lower/typed_numbers.hpp"
+#include "solids/faceted_box.hpp"
+#include "solids/leaves.hpp"
+#include "solids/solid_shape.hpp"
+#include "subtrees/inner_parts.hpp"
+#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/plane_lowering.hpp"
+#include "subtrees/render_text.hpp"
+#include "subtrees/solid_evaluation.hpp"
+#include "subtrees/solid_lowering.hpp"
 
 namespace frontend {
 namespace {
@@ -210,7 +209,7 @@ void Collector::leave_out(uint32_t node, const std::string& why) {
 
 void Collector::enter_matrix(uint32_t node) {
   NodeReader reader(tree_, tree_.nodes[node], problems);
-  const FileMatrix file = read_matrix(reader);
+  const auto file = std::get<FileMatrix>(read_node(reader, {options_, fonts}));
   if (is_identity(file)) return;
   Context context = contexts_.back();
   context.node = node;
@@ -224,7 +223,7 @@ void Collector::enter_matrix(uint32_t node) {
 
 void Collector::enter_color(uint32_t node) {
   NodeReader reader(tree_, tree_.nodes[node], problems);
-  const NodeColor color = read_color(reader);
+  const auto color = std::get<NodeColor>(read_node(reader, {options_, fonts}));
   if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;

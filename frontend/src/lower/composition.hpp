@@ -7,7 +7,7 @@
 #include "csgcore/geometry.hpp"
 #include "csgcore/scene.hpp"
 #include "frontend/import_options.hpp"
-#include "lower/leaves.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 

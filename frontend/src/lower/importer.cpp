@@ -12,10 +12,10 @@
 #include "lower/collector.hpp"
 #include "lower/composition.hpp"
 #include "lower/leaf_boxes.hpp"
-#include "lower/leaves.hpp"
 #include "lower/plates.hpp"
 #include "lower/products.hpp"
 #include "lower/resolved_modifiers.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 namespace {

@@ -1,12 +1,15 @@
 // The boxes of a design's leaves, by which its camera stands and its products are found.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+#include "csgcore/tight_bounds.hpp"
 #include "lower/collector.hpp"
-#include "lower/leaves.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 
@@ -27,5 +30,11 @@ LeafBoxes boxes_of_leaves(Collector& collected, const Leaves& leaves, bool measu
 /// Returns the box of the outcome of a final render. `facets` is that of the operands.
 csgcore::Box box_of_result(const Collector& collected, const csgcore::CsgTree& solid,
                            const csgcore::Box& facets);
+
+/// Returns the box, in the world, of the corners of the solid's csgcore::tight_bounds() in its own
+/// frame. If doubles do not hold the solid there, its frame is the world.
+csgcore::Box tight_box(std::span<const csgcore::Primitive> primitives,
+                       const csgcore::CsgTree& solid, const csgcore::Affine& frame_to_world,
+                       csgcore::BoundsBudget& budget);
 
 }  // namespace frontend

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "lower/plane_lowering.hpp"
+#include "subtrees/plane_lowering.hpp"
 
 namespace frontend {
 namespace {

@@ -5,7 +5,7 @@
 #include "lower/collector.hpp"
 #include "lower/composition.hpp"
 #include "lower/leaf_boxes.hpp"
-#include "lower/leaves.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "lower/leaves.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "nodes/node_row.hpp"
+#include "subtrees/inner_parts.hpp"
+#include "subtrees/node_row.hpp"
 
 namespace frontend {
 namespace {

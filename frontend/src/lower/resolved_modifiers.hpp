@@ -8,21 +8,9 @@
 
 #include "csgcore/geometry.hpp"
 #include "frontend/design_tree.hpp"
+#include "subtrees/plane_evaluation.hpp"
 
 namespace frontend {
-
-/// A `#` part inside a `#` part is overlaid once more, as OpenSCAD does. Beyond so many inside one
-/// another no more are added: the overlay would grow with the square of the nesting.
-constexpr size_t kMostNestedHighlights = 8;
-
-/// What a node is as an operand.
-enum class Presence : uint8_t {
-  kAbsent,      // nothing: disabled, or outside the subtree that `!` selects
-  kBackground,  // `%`, or nothing but `%` parts: no operand
-  kLeftOut,     // what cannot be drawn was left out, and nothing else is there: no operand
-  kEmpty,       // the empty set
-  kSolid,
-};
 
 /// One node's part in the picture.
 struct ResolvedNode {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "nodes/node_row.hpp"
+#include "subtrees/node_row.hpp"
 
 namespace frontend {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "lower/leaves.hpp"
+#include "solids/leaves.hpp"
 #include "lower/products.hpp"
 
 namespace frontend {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "frontend/parser.hpp"
-#include "lower/plane_subtree.hpp"
+#include "subtrees/subtree.hpp"
 #include "plane/outlines.hpp"
 #include "support/full_run.hpp"
 #include "temporary_folder.hpp"

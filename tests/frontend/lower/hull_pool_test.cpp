@@ -1,5 +1,5 @@
 // Tests which hulls are made anew when a design changes.
-#include "lower/hull_pool.hpp"
+#include "solids/hull_pool.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,12 @@
 // Tests how extrusions are cut into slices, and the meshes between them.
-#include "lower/slices.hpp"
+#include "solids/sliced_solid.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "csgcore/triangle_mesh.hpp"
-#include "lower/sliced_solid.hpp"
-#include "lower/smooth_slices.hpp"
+#include "solids/smooth_slices.hpp"
 
 namespace frontend {
 namespace {

@@ -1,5 +1,5 @@
 // Tests the tight box of a solid, against solids whose box is known.
-#include "lower/tight_box.hpp"
+#include "lower/leaf_boxes.hpp"
 
 #include <gtest/gtest.h>
 

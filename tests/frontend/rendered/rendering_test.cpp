@@ -19,7 +19,7 @@
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/stop.hpp"
-#include "lower/render_text.hpp"
+#include "subtrees/render_text.hpp"
 #include "meshes/nef_text.hpp"
 #include "rendered/render_cache.hpp"
 #include "temporary_folder.hpp"

@@ -11,7 +11,7 @@
 #include "follow/design_reading.hpp"
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
-#include "lower/hull_pool.hpp"
+#include "solids/hull_pool.hpp"
 #include "painter.hpp"
 #include "support/full_run.hpp"
 #include "temporary_folder.hpp"

@@ -1,0 +1,80 @@
+// What the arguments of a node say, whatever node stands above it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "arguments/file_arguments.hpp"
+#include "arguments/file_matrix.hpp"
+#include "arguments/round_node.hpp"
+#include "csgcore/geometry.hpp"
+#include "fonts/text_layout.hpp"
+#include "meshes/face_set.hpp"
+#include "plane/figure.hpp"
+#include "plane/offset.hpp"
+
+namespace frontend {
+
+/// What the figure of a circle, square or polygon node is in its own coordinates.
+struct FigureNode {
+  /// Nothing: it is empty. A circle is a disc, or OpenSCAD's polygon if its facets are kept.
+  std::optional<Figure> figure;
+  /// Of a circle: OpenSCAD's polygon, whose box it draws a picture of. 0: not a circle.
+  int fragments = 0;
+};
+
+/// The letters of a text node, whose union it is; none: it is empty.
+struct TextNode {
+  std::vector<PlacedGlyph> letters;
+};
+
+/// The sizes of a resize node: a plane figure has no z.
+struct ResizeArguments {
+  std::array<double, 3> size{};
+  std::array<bool, 3> follows{};  // `auto`
+};
+
+struct LinearExtrudeArguments {
+  double height = 100;  // ≤ 0: nothing
+  bool is_centered = false;
+  /// Returns the height of the bottom.
+  double z_min() const { return is_centered ? -height / 2 : 0; }
+  double twist = 0;                // degrees, clockwise
+  Vec2 top_scale{1.0};             // ≥ 0
+  Vec2 lean{0.0};                  // how far the top is moved against the bottom
+  std::optional<double> slices{};  // ≥ 1
+  std::optional<double> segments{};
+  csgcore::FacetSettings facets;
+};
+struct RotateExtrudeArguments {
+  double angle = 360;  // from −360 to 360, the former exclusive; 0: nothing
+  std::optional<double> start{};
+  csgcore::FacetSettings facets;
+};
+struct LinearExtrudeNode {
+  LinearExtrudeArguments arguments;
+  bool is_faceted = false;  // a twisted one has OpenSCAD's slices
+};
+
+struct RotateExtrudeNode {
+  RotateExtrudeArguments arguments;
+  bool is_faceted = false;
+};
+
+struct ProjectionNode {
+  bool is_cut = false;  // it is a section; else it is a shadow
+};
+
+/// What a color node sets: nothing if it says nothing.
+using NodeColor = std::optional<csgcore::Color>;
+
+/// Of a cube its box, of a polyhedron its faces. Nothing for a node whose arguments do not matter.
+using NodeData =
+    std::variant<std::monostate, RoundNode, csgcore::Box, std::shared_ptr<const FaceSet>,
+                 FileArguments, FigureNode, TextNode, FileMatrix, NodeColor, OffsetSettings,
+                 ResizeArguments, LinearExtrudeNode, RotateExtrudeNode, ProjectionNode>;
+
+}  // namespace frontend

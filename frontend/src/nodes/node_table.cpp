@@ -1,0 +1,45 @@
+#include <array>
+
+#include "subtrees/node_row.hpp"
+
+namespace frontend {
+namespace {
+
+/// In NodeKind's order.
+constexpr std::array kRows{
+    &kSphereRow, &kCylinderRow,      &kCubeRow,          &kPolyhedronRow, &kCircleRow,
+    &kSquareRow, &kPolygonRow,       &kTextRow,          &kMultmatrixRow, &kColorRow,
+    &kGroupRow,  &kRenderRow,        &kUnionRow,         &kDifferenceRow, &kIntersectionRow,
+    &kHullRow,   &kFillRow,          &kMinkowskiRow,     &kProjectionRow, &kOffsetRow,
+    &kResizeRow, &kLinearExtrudeRow, &kRotateExtrudeRow, &kImportRow,     &kSurfaceRow,
+    &kRoofRow,
+};
+static_assert(kRows.size() == language::kNodeNames.size());
+
+}  // namespace
+
+const NodeRow& row_of(NodeKind kind) { return *kRows[static_cast<size_t>(kind)]; }
+
+csgcore::FacetSettings chosen(const ImportOptions& options, csgcore::FacetSettings facets) {
+  if (options.fn) facets.fn = *options.fn;
+  return facets;
+}
+
+RoundNode chosen(const ImportOptions& options, RoundNode round) {
+  round.facets = chosen(options, round.facets);
+  return round;
+}
+
+bool keeps_facets(const ImportOptions& options, const csgcore::FacetSettings& facets) {
+  switch (options.facets) {
+    case Facets::kNone:
+      return false;
+    case Facets::kFew:
+      return facets.fn > 0 && facets.fn <= options.few_fragments;
+    case Facets::kAll:
+      return true;
+  }
+  return false;
+}
+
+}  // namespace frontend

@@ -1,0 +1,20 @@
+#include "subtrees/node_row.hpp"
+#include "subtrees/plane_evaluation.hpp"
+
+namespace frontend {
+namespace {
+constexpr language::ArgumentName kProjectionLabel[] = {"cut"};
+}
+
+const NodeRow kProjectionRow{
+    .role = Role::kWhole,
+    .dimension = 2,
+    .label = kProjectionLabel,
+    .read = [](NodeReader& reader, const NodeSources&) -> NodeData {
+      return ProjectionNode{reader.is_true("cut", 0)};
+    },
+    .figures = [](PlaneEvaluation& planes,
+                  uint32_t node) { return outcome_of(planes.projection(node)); },
+};
+
+}  // namespace frontend

@@ -1,7 +1,0 @@
-#include "nodes/node_row.hpp"
-
-namespace frontend {
-
-const NodeRow kRoofRow{.role = Role::kUnknown};
-
-}  // namespace frontend

@@ -1,0 +1,160 @@
+#include "solids/import_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "base/lower_case.hpp"
+#include "base/primitive_size.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "meshes/height_map.hpp"
+#include "meshes/read_solid_file.hpp"
+
+namespace frontend {
+namespace {
+
+struct Format {
+  std::string_view suffix;
+  SolidFile (*read)(std::string_view bytes, const std::string& name);
+};
+constexpr std::array<Format, 5> kFormats{{{".stl", read_stl},
+                                          {".off", read_off},
+                                          {".amf", read_amf},
+                                          {".3mf", read_3mf},
+                                          {".nef3", read_nef3}}};
+
+/// Returns the format of a solid's file, or the end of the list.
+auto format_of_solid(std::string_view name) {
+  const std::string suffix = lower_case(std::filesystem::path(name).extension().string());
+  return std::ranges::find(kFormats, suffix, &Format::suffix);
+}
+
+/// Returns nothing if there is no such file, or it cannot be read.
+std::optional<FileText> bytes_of_file(const std::string& path) {
+  try {
+    return read_regular_file(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+bool is_importable(std::string_view name) {
+  return format_of_solid(name) != kFormats.end() || drawing_format_of(name).has_value();
+}
+
+std::string FileImports::path_of(const std::string& name) {
+  std::string path = (std::filesystem::path(folder_) / name).lexically_normal().string();
+  paths_.insert(path);
+  return path;
+}
+
+const ImportedFile& FileImports::import(const FileArguments& arguments) {
+  const auto [entry, is_new] = imports_.try_emplace(arguments.file);
+  if (is_new) entry->second = read_import(arguments.file);
+  return entry->second;
+}
+
+const ImportedFile& FileImports::surface(const FileArguments& arguments) {
+  const auto [entry, is_new] =
+      surfaces_.try_emplace({arguments.file, arguments.is_centered, arguments.is_inverted});
+  if (is_new) entry->second = read_surface(arguments);
+  return entry->second;
+}
+
+const ImportedDrawing& FileImports::drawing(const DrawingArguments& arguments) {
+  const DxfSettings& dxf = arguments.dxf;
+  const SvgSettings& svg = arguments.svg;
+  std::vector<double> numbers{static_cast<double>(arguments.format),
+                              dxf.origin.x,
+                              dxf.origin.y,
+                              dxf.scale,
+                              dxf.facets.fn,
+                              dxf.facets.fa,
+                              dxf.facets.fs,
+                              static_cast<double>(dxf.is_faceted),
+                              static_cast<double>(svg.is_centered),
+                              svg.dpi,
+                              static_cast<double>(svg.is_faceted)};
+  // No nan, which equals nothing.
+  for (double& number : numbers) number = std::isnan(number) ? 0 : number;
+  const auto [entry, is_new] =
+      drawings_.try_emplace({arguments.file, dxf.layer, std::move(numbers)});
+  if (is_new) entry->second = read_drawing(arguments);
+  return entry->second;
+}
+
+ImportedDrawing FileImports::read_drawing(const DrawingArguments& arguments) {
+  const std::string path = path_of(arguments.file);
+  const bool is_dxf = arguments.format == DrawingFormat::kDxf;
+  const std::optional<FileText> bytes = bytes_of_file(path);
+  if (!bytes) {
+    return {{},
+            {{std::string(is_dxf ? "Can't open DXF file '" : "Can't open file '") + path + "'",
+              "check its name; it is relative to the design's folder"}}};
+  }
+  return is_dxf ? read_dxf(bytes->view(), path, arguments.dxf)
+                : read_svg(bytes->view(), path, arguments.svg);
+}
+
+ImportedFile FileImports::read_import(const std::string& name) {
+  ImportedFile file;
+  const std::string path = path_of(name);
+  const auto format = format_of_solid(name);
+  if (format == kFormats.end()) {
+    file.problem = "Unsupported file format while trying to import file '\"" + name + "\"'";
+    file.todo = std::string("convert it to ") + kImportable;
+    return file;
+  }
+  const std::optional<FileText> bytes = bytes_of_file(path);
+  if (!bytes) {
+    file.problem = "Can't open import file '" + path + "'";
+    file.todo = "check its name; it is relative to the design's folder";
+    return file;
+  }
+  SolidFile solid = format->read(bytes->view(), path);
+  file.problem = std::move(solid.problem);
+  if (!file.problem.empty()) file.todo = "the file is damaged: export it again";
+  set_solid(std::move(solid.faces), path, file);
+  return file;
+}
+
+ImportedFile FileImports::read_surface(const FileArguments& arguments) {
+  ImportedFile file;
+  const std::string path = path_of(arguments.file);
+  const std::optional<FileText> bytes = bytes_of_file(path);
+  if (!bytes) {
+    file.problem = "The file '" + path + "' couldn't be opened";
+    file.todo = "check its name; it is relative to the design's folder";
+    return file;
+  }
+  HeightMap map = read_height_map(bytes->view(), path, arguments.is_inverted);
+  file.problem = std::move(map.problem);
+  if (!file.problem.empty()) file.todo = "check the file";
+  set_solid(solid_below(map, arguments.is_centered), path, file);
+  return file;
+}
+
+void FileImports::set_solid(FaceSet faces, const std::string& path, ImportedFile& file) {
+  uint64_t unfinite_faces = 0;
+  const SolidOfFaces& solid = pool_.solid(std::move(faces), unfinite_faces);
+  const bool is_too_large = solid.exponent > kLargestExponent;
+  if (!solid.is_empty() && !is_too_large) file.solid = &solid;
+  if (is_too_large && file.problem.empty()) {
+    file.problem = "'" + path + "' is left out: its coordinates are too large";
+    file.todo = "scale it to between 1e-90 and 1e90 across";
+    return;
+  }
+  if (unfinite_faces == 0 || !file.problem.empty()) return;
+  file.problem = std::to_string(unfinite_faces) + (unfinite_faces == 1 ? " face" : " faces") +
+                 " of '" + path + "' with coordinates that are not finite " +
+                 (unfinite_faces == 1 ? "is" : "are") + " left out";
+  file.todo = "export it again";
+}
+
+}  // namespace frontend

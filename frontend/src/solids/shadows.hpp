@@ -1,0 +1,29 @@
+// Shadows of solids along z, as OpenSCAD's projection() makes them.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "solids/figure_operations.hpp"
+#include "solids/solid_value.hpp"
+
+namespace frontend {
+
+/// Finds the shadow that a solid casts on the plane z = 0.
+class Shadows {
+ public:
+  /// Returns the shadow; nothing if it cannot be found: failure() says why. The shadow of a union
+  /// is that of its operands. Differences and intersections have one if all their operands stand
+  /// upright between two heights, or are convex.
+  std::optional<FigureOperations> of(const SolidValue& value);
+  std::string_view failure() const { return failure_; }
+
+ private:
+  FigureOperations of_operation(const SolidValue& value);
+  FigureOperations of_part(const SolidPart& part);
+  void fail(std::string_view why);
+
+  std::string_view failure_;
+};
+
+}  // namespace frontend

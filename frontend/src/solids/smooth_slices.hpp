@@ -1,0 +1,28 @@
+// Slices of an extrusion that turns, or that is scaled differently in x and y, which come near the
+// smooth solid.
+#pragma once
+
+#include "solids/sliced_solid.hpp"
+
+namespace frontend {
+
+/// How far triangles may be from smooth sides, as a share of the figure's reach: a quarter of a
+/// pixel of a figure that is 1,000 pixels wide.
+constexpr double kSmoothTolerance = 0x1p-11;
+
+/// So many chords are no farther from a circle than that share of its radius.
+constexpr int kSmoothChords = 120;
+
+/// Returns whether an extrusion turns so much for its height that its sides are nearly flat, as
+/// those of a thread: a point at the distance `reach` moves by several heights.
+bool has_flat_sides(const TwistedLayers& layers, double reach);
+
+/// Returns at least as many slices as given, and edges that are cut, so that the triangles are
+/// nowhere farther from the smooth sides than kSmoothTolerance. Sides that need too many triangles
+/// for that are coarser.
+///
+/// Flat sides have OpenSCAD's slices unless the outline is round: with corners, more slices would
+/// show steps where a thread is meant.
+Slicing smooth_slicing(const TwistedLayers& layers, double slices, SimplePolygons outline);
+
+}  // namespace frontend

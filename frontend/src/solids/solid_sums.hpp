@@ -1,0 +1,32 @@
+// Minkowski sums of the parts of solids.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "solids/solid_value.hpp"
+
+namespace frontend {
+
+/// Collects the sums of pairs of parts, whose union is the sum of the unions.
+class SolidSums {
+ public:
+  void add(const SolidPart& a, const SolidPart& b);
+  std::vector<SolidPart> take() { return std::move(sums_); }
+  /// Empty: there was none.
+  std::string_view failure() const { return failure_; }
+
+ private:
+  void add_convex(const SupportSet& a, const SupportSet& b, const csgcore::Box& box);
+  void add_mesh(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
+  void add_extrusion(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
+  void fail(std::string_view why);
+
+  std::vector<SolidPart> sums_;
+  std::string_view failure_;
+  size_t work_ = 0;  // of what was added: pairs of generators, and their sums
+};
+
+}  // namespace frontend

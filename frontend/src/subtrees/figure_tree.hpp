@@ -1,0 +1,71 @@
+// The set operations of a 2D subtree, over its figures.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+#include "heal/frames.hpp"
+#include "plane/figure.hpp"
+#include "plane/plane_map.hpp"
+#include "solids/leaves.hpp"
+#include "subtrees/lowered_subtree.hpp"
+#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree.hpp"
+
+namespace frontend {
+
+/// A figure where it stands in the subtree.
+struct PlacedFigure {
+  std::shared_ptr<const Figure> figure;
+  PlaneMap map;    // of its node, to the root's plane
+  uint32_t frame;  // of which the map is the part within the root's
+  uint32_t id;
+  int fragments = 0;                                  // of a circle: OpenSCAD's
+  PlaneMap place_in_node{};                           // of a letter
+  std::shared_ptr<const csgcore::Profile> profile{};  // of the figure, where it is made already
+
+  /// To the root's plane.
+  PlaneMap place() const { return compose(map, place_in_node); }
+};
+
+/// The subtree as operations on figures.
+struct FigureTree {
+  std::vector<PlacedFigure> figures;
+  csgcore::CsgTree tree;  // over their indices
+};
+
+/// Returns the operations of the subtree. `frame` is where the root stands; adds frames. Of an
+/// extrusion that is the root, they are those of its children.
+FigureTree figure_tree(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
+                       uint32_t frame, FrameTree& frames);
+
+/// Returns the bounds of the corners that OpenSCAD has of the figure, in the root's plane.
+Rectangle faceted_bounds(const PlacedFigure& placed);
+
+/// Returns the bounds of what is not subtracted.
+Rectangle positive_bounds(const FigureTree& figures);
+
+/// Gives each figure its solid, where it has one, and writes the tree over those.
+template <typename Make>
+csgcore::CsgTree tree_of_parts(const FigureTree& figures, std::vector<LoweredSubtree::Part>& parts,
+                               const Make& make) {
+  csgcore::CsgTreeBuilder builder;
+  rebuild(figures.tree.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
+    std::optional<LoweredSubtree::Part> part = make(figures.figures[index]);
+    if (!part) {
+      to.empty();
+      return;
+    }
+    part->primitive.id = figures.figures[index].id;
+    to.primitive(static_cast<uint32_t>(parts.size()));
+    parts.push_back(std::move(*part));
+  });
+  return builder.finish();
+}
+
+}  // namespace frontend

@@ -1,0 +1,110 @@
+#include "subtrees/plane_lowering.hpp"
+
+#include <memory>
+
+#include "solids/faceted_box.hpp"
+#include "subtrees/extrusions.hpp"
+#include "subtrees/figure_tree.hpp"
+#include "subtrees/revolutions.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::CsgTreeBuilder;
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+/// The preview draws a plane figure as a plate about z = 0, whose box it takes for flat.
+constexpr double kPlateThickness = 1;
+/// A plate that is subtracted is thicker by this factor.
+constexpr double kSubtractedPlateStretch = 1.1;
+
+/// OpenSCAD's box of a plane figure is that of what the operations leave.
+Box box_of_rest(PlaneEvaluation& evaluation, uint32_t root, const Affine& root_to_world) {
+  evaluation.find_all_figures();
+  Box box;
+  for (const Figure& figure : evaluation.figures(root)) {
+    const Rectangle bounds = bounds_of(figure);
+    if (bounds.empty()) continue;
+    box.merge(Vec3(bounds.min, 0));
+    box.merge(Vec3(bounds.max, 0));
+  }
+  return box.empty() ? box : mapped(root_to_world, box);
+}
+
+/// What the operations leave, without them: they may leave so little of large figures that a thin
+/// plate of it would be below the renderers' tolerance.
+FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uint32_t root,
+                     uint32_t frame) {
+  evaluation.find_all_figures();
+  FigureTree result;
+  CsgTreeBuilder builder;
+  for (const Figure& figure : evaluation.figures(root)) {
+    builder.primitive(static_cast<uint32_t>(result.figures.size()));
+    result.figures.push_back(
+        {std::make_shared<const Figure>(figure), {}, frame, figures.figures.front().id});
+  }
+  result.tree = builder.finish();
+  return result;
+}
+
+/// A share of the figure's size that is below a pixel.
+double flat_thickness(const FigureTree& figures) {
+  constexpr double kShare = 0x1p-12;
+  const Rectangle bounds = positive_bounds(figures);
+  return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
+}
+
+}  // namespace
+
+LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, Plate plate,
+                             uint32_t frame, FrameTree& frames, FigureSolids& solids,
+                             NodeProblems& problems) {
+  const FigureTree figures = figure_tree(subtree, evaluation, frame, frames);
+  const Affine root_to_world = frames[frame].to_world;
+  const NodeKind kind = subtree.syntax(subtree.root()).kind;
+  if (kind == NodeKind::kRotateExtrude) {
+    return lower_rotate_extrude(subtree, evaluation, figures, frame, root_to_world, solids,
+                                problems);
+  }
+  if (kind == NodeKind::kLinearExtrude) {
+    return lower_linear_extrude(subtree, evaluation, figures, frame, frames, solids, problems);
+  }
+  if (plate == Plate::kFlat) {
+    const FigureTree rest = evaluated(figures, evaluation, subtree.root(), frame);
+    const double thickness = flat_thickness(rest);
+    return extrude(rest, {-thickness / 2, thickness / 2, 1}, true, root_to_world, frames, solids);
+  }
+  LoweredSubtree result = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
+                                  root_to_world, frames, solids);
+  if (!result.is_union) {
+    result.box = box_of_rest(evaluation, subtree.root(), root_to_world);
+  }
+  return result;
+}
+
+LoweredSubtree lower_figure(const Figure& figure, Plate plate, uint32_t id, uint32_t frame,
+                            FrameTree& frames, FigureSolids& solids) {
+  FigureTree figures;
+  figures.figures.push_back({std::make_shared<const Figure>(figure), {}, frame, id});
+  CsgTreeBuilder builder;
+  builder.primitive(0);
+  figures.tree = builder.finish();
+  const double thickness = plate == Plate::kFlat ? flat_thickness(figures) : kPlateThickness;
+  return extrude(figures, {-thickness / 2, thickness / 2, 1}, true, frames[frame].to_world, frames,
+                 solids);
+}
+
+void thicken_plate(Primitive& part, const Affine& frame_to_world) {
+  Affine to_frame;
+  to_frame.linear = csgcore::inverse(frame_to_world.linear);
+  to_frame.translation = -(to_frame.linear * frame_to_world.translation);
+  Affine stretched;
+  stretched.linear[2][2] = kSubtractedPlateStretch;
+  part.local_to_world =
+      compose(frame_to_world, compose(stretched, compose(to_frame, part.local_to_world)));
+}
+
+}  // namespace frontend

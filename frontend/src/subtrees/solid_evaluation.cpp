@@ -1,0 +1,108 @@
+#include "subtrees/solid_evaluation.hpp"
+
+#include <utility>
+
+#include "base/primitive_traits.hpp"
+#include "csgcore/stop_scope.hpp"
+#include "solids/sections.hpp"
+#include "solids/shadows.hpp"
+#include "solids/solid_cuts.hpp"
+
+namespace frontend {
+
+std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
+  first_ = root;
+  values_.assign(subtree_.end_of(root) - root, {});
+  // Children come after their parents: from the last node on, all that a node holds is known.
+  const std::vector<uint32_t> nodes = solid_nodes(root);
+  for (auto node = nodes.rbegin(); node != nodes.rend() && failure_.empty(); ++node) {
+    csgcore::stop_point();
+    values_[*node - root] = evaluate(*node);
+  }
+  if (!failure_.empty()) return std::nullopt;
+  return std::move(values_.front());
+}
+
+/// The root, and the nodes of solids below it without those of other projections, whose figures are
+/// known.
+std::vector<uint32_t> SolidEvaluation::solid_nodes(uint32_t root) const {
+  std::vector<uint32_t> result{root};
+  for (uint32_t i = root + 1; i < subtree_.end_of(root);) {
+    if (subtree_.syntax(i).kind == NodeKind::kProjection) {
+      i = subtree_.end_of(i);
+      continue;
+    }
+    if (planes_.presence(i) == Presence::kSolid && planes_.dimension(i) == 3) result.push_back(i);
+    ++i;
+  }
+  return result;
+}
+
+std::optional<FigureOperations> SolidEvaluation::projection(uint32_t node) {
+  const std::optional<SolidValue> value = run(node);
+  if (!value) return std::nullopt;
+  if (value->is_empty()) return FigureOperations{};
+  return subtree_.data<ProjectionNode>(node).is_cut ? section(node, *value) : shadow(*value);
+}
+
+std::optional<FigureOperations> SolidEvaluation::section(uint32_t node, const SolidValue& value) {
+  Section section = section_of(value);
+  if (section.has_open_mesh) {
+    problems_.add(subtree_.syntax(node),
+                  {": The given mesh is not closed", "it has no section: close it"});
+  } else if (section.operations.is_empty()) {
+    problems_.add(subtree_.syntax(node),
+                  {": Projection() failed", "nothing meets the plane z = 0"});
+  }
+  return std::move(section.operations);
+}
+
+std::optional<FigureOperations> SolidEvaluation::shadow(const SolidValue& value) {
+  Shadows shadows;
+  std::optional<FigureOperations> result = shadows.of(value);
+  if (!result) fail(shadows.failure());
+  return result;
+}
+
+void SolidEvaluation::fail(std::string_view why) {
+  if (failure_.empty()) failure_ = why;
+}
+
+std::vector<SolidValue> SolidEvaluation::operands(uint32_t node) {
+  std::vector<SolidValue> result;
+  planes_.visit_operands(node, [&](uint32_t child) {
+    if (planes_.presence(child) == Presence::kLeftOut) return;
+    result.push_back(std::move(values_[child - first_]));
+  });
+  return result;
+}
+
+SolidValue SolidEvaluation::evaluate(uint32_t node) {
+  const NodeRow& row = subtree_.row(node);
+  if (row.role == Role::kSolid) return solid_of_leaf(node);
+  return row.solid == nullptr ? combined(row.op, operands(node)) : row.solid(*this, node);
+}
+
+SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
+  std::optional<SolidShape> shape =
+      solid_shape(subtree_.data(node), subtree_.syntax(node), sources_, problems_);
+  if (!shape || (shape->faces != nullptr && shape->faces->is_empty())) return {};
+  SolidPart part = part_of(shape->primitive, shape->facets);
+  const int fragments =
+      keeps_facets(options_, shape->facets)
+          ? traits_of(shape->primitive.shape()).fragments(shape->primitive, shape->facets)
+          : 0;
+  if (fragments > 0 && sources_.polyhedra.facet(shape->primitive, fragments)) {
+    part.primitive = std::move(shape->primitive);
+  }
+  return value_of(std::move(part));
+}
+
+std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value) {
+  SolidCuts cuts;
+  std::vector<SolidPart> parts = cuts.united(value);
+  if (!cuts.failure().empty()) fail(cuts.failure());
+  return parts;
+}
+
+}  // namespace frontend

@@ -1,0 +1,114 @@
+#include "subtrees/solid_lowering.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "csgcore/stop_scope.hpp"
+#include "plane/outlines.hpp"
+#include "solids/faceted_box.hpp"
+#include "solids/leaves.hpp"
+#include "subtrees/render_text.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::CsgTreeBuilder;
+using csgcore::Op;
+using csgcore::Primitive;
+
+/// What cannot be drawn at any scale is beyond double's numbers in places.
+std::vector<Primitive> pieces_of(const SolidPart& part, HullPool& hulls, bool& is_faceted) {
+  if (part.primitive) {
+    is_faceted = is_faceted || part.is_faceted;
+    return {*part.primitive};
+  }
+  const Generators& generators = part.body.generators;
+  if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
+  ConvexSolid solid = hulls.solid(generators);
+  is_faceted = is_faceted || solid.is_faceted || part.body.is_faceted;
+  return std::move(solid.pieces);
+}
+
+}  // namespace
+
+LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_world, uint32_t frame,
+                           uint32_t id, HullPool& hulls) {
+  LoweredSubtree result;
+  const auto add_part = [&](CsgTreeBuilder& builder, uint32_t index) {
+    csgcore::stop_point();
+    const SolidPart& part = value.parts[index];
+    const csgcore::Box box = mapped(to_world, part.box);
+    builder.open(Op::kUnion);
+    for (Primitive& piece : pieces_of(part, hulls, result.is_faceted)) {
+      piece.local_to_world = compose(to_world, piece.local_to_world);
+      piece.id = id;
+      builder.primitive(static_cast<uint32_t>(result.parts.size()));
+      result.parts.push_back({std::move(piece), frame, box});
+    }
+    builder.close();
+  };
+  CsgTreeBuilder builder;
+  rebuild(value.tree.tokens(), builder, add_part);
+  result.solid = builder.finish();
+  result.has_operations = !value.is_union();
+  if (value.is_union()) result.box = mapped(to_world, value.box());
+  return result;
+}
+
+std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, HullPool& hulls,
+                                      const std::stop_token& stop) {
+  std::vector<LoweredSubtree> result(pending.size());
+  const auto lower = [&](size_t begin, size_t end) {
+    const csgcore::StopScope scope(&stop);
+    for (size_t i = begin; i < end; ++i) {
+      const PendingSolid& solid = pending[i];
+      if (solid.rendering) continue;
+      result[i] = lower_solid(solid.value, solid.to_world, solid.frame, solid.id, hulls);
+    }
+  };
+  // Fewer take less than the threads take to start.
+  constexpr size_t kAtOnce = 8;
+  if (pending.size() <= kAtOnce) {
+    lower(0, pending.size());
+  } else {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, pending.size(), kAtOnce),
+                      [&](const auto& range) { lower(range.begin(), range.end()); });
+  }
+  return result;
+}
+
+LoweredSubtree lower_rendered_solid(const RingedFaces& faces, const csgcore::Affine& to_world,
+                                    uint32_t frame, uint32_t id, PolyhedronPool& polyhedra) {
+  LoweredSubtree result;
+  FaceSet set = face_set_of(faces);
+  for (csgcore::Vec3& point : set.points) point /= kRenderScale;
+  uint64_t unfinite_faces = 0;  // none: the points are finite
+  const SolidOfFaces& solid = polyhedra.solid(std::move(set), unfinite_faces);
+  if (solid.is_empty()) return result;
+  csgcore::Primitive primitive = solid.under(to_world);
+  primitive.id = id;
+  const csgcore::Box box = faceted_box(primitive, {});
+  result.parts.push_back({std::move(primitive), frame, box});
+  csgcore::CsgTreeBuilder builder;
+  builder.primitive(0);
+  result.solid = builder.finish();
+  return result;
+}
+
+std::optional<Figure> rendered_figure(const RingedFaces& faces) {
+  const auto is_at_bottom = [&](uint32_t corner) { return faces.points[corner].z == 0; };
+  Polygons polygons;
+  for (size_t i = 0; i < faces.ring_ends.size(); ++i) {
+    const std::span<const uint32_t> ring = faces.ring(i);
+    if (!std::ranges::all_of(ring, is_at_bottom)) continue;
+    Polygon& polygon = polygons.emplace_back();
+    for (const uint32_t corner : ring) polygon.emplace_back(faces.points[corner]);
+  }
+  return cleaned(outline_of(std::move(polygons)));
+}
+
+}  // namespace frontend

@@ -1,0 +1,40 @@
+#include "subtrees/subtree.hpp"
+
+namespace frontend {
+namespace {
+
+const ImportedDrawing* drawing_of(NodeReader& reader, const ImportOptions& options,
+                                  FileImports& files) {
+  if (!names_drawing(reader.tree(), reader.node())) return nullptr;
+  DrawingArguments arguments = read_drawing(reader);
+  arguments.dxf.facets = chosen(options, arguments.dxf.facets);
+  arguments.dxf.is_faceted = keeps_facets(options, arguments.dxf.facets);
+  // OpenSCAD's chords of an SVG do not depend on $fn: none is meant to be a polygon.
+  arguments.svg.is_faceted = options.facets == Facets::kAll;
+  const ImportedDrawing& drawing = files.drawing(arguments);
+  for (const DrawingProblem& problem : drawing.problems) {
+    reader.tell({": " + problem.what, problem.todo});
+  }
+  return &drawing;
+}
+
+}  // namespace
+
+void PlaneSubtree::take(uint32_t id, const NodeSources& sources, FileImports& files,
+                        NodeProblems& problems) {
+  const Node& node = syntax(end());
+  // A colour within a leaf of one colour counts for its `%` parts only.
+  NodeProblems untold;
+  NodeReader reader(tree_, node, node.kind == NodeKind::kColor ? untold : problems);
+  NodeData data = read_node(reader, sources);
+  nodes_.push_back({id, std::move(data), drawing_of(reader, sources.options, files)});
+}
+
+PlaneSubtree PlaneSubtree::part(uint32_t node) const {
+  PlaneSubtree result(tree_, node);
+  const auto first = nodes_.begin() + (node - root_);
+  result.nodes_.assign(first, first + (end_of(node) - node));
+  return result;
+}
+
+}  // namespace frontend
