@@ -32,10 +32,11 @@ constexpr std::string_view kBecauseTooLarge =
 constexpr std::string_view kBecauseTooSmall =
     "it is too small: scale the design to between 1e-90 and 1e90 across";
 
-/// Whether color() has set all of it: OpenSCAD takes the channels that are missing of the scheme.
+/// Returns whether color() has set all of it: OpenSCAD takes the channels that are missing of the
+/// scheme.
 bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
 
-/// The colour within color(): the outermost one counts that has all of its channels.
+/// Returns the colour within color(): the outermost one counts that has all of its channels.
 std::optional<csgcore::Color> inner_color(const std::optional<csgcore::Color>& outer,
                                           const std::optional<csgcore::Color>& own) {
   return outer && is_whole(*outer) ? outer : own;
@@ -51,7 +52,7 @@ bool is_near(const csgcore::Vec3& point) {
 
 enum class Fit : uint8_t { kFits, kTooLarge, kTooSmall, kFlat /* nothing is left of it */ };
 
-/// Its shape is valid; the matrix may be any.
+/// Returns how a primitive fits into what can be drawn. Its shape is valid; the matrix may be any.
 Fit fit_of(const Primitive& primitive) {
   const bool is_valid = csgcore::is_valid(primitive);
   const Affine& map = primitive.local_to_world;
@@ -64,8 +65,8 @@ Fit fit_of(const Primitive& primitive) {
   return is_valid ? Fit::kFits : Fit::kFlat;
 }
 
-/// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes"). `file` is empty where
-/// the node lists the faces.
+/// Tells that a mesh is open: a hole in it shows what is behind it (csgcore/NUMERICS.md, "Meshes").
+/// `file` is empty where the node lists the faces.
 void note_open_mesh(const Node& node, const csgcore::TriangleMesh& mesh, const std::string& file,
                     NodeProblems& problems) {
   const uint64_t edges = mesh.open_edges();
@@ -76,13 +77,13 @@ void note_open_mesh(const Node& node, const csgcore::TriangleMesh& mesh, const s
                 "it is drawn as thin sheets where a ray passes a hole"});
 }
 
-/// OpenSCAD shows the faces of a closed body that has no volume.
+/// Tells that a body has no volume: OpenSCAD shows the faces of one that is closed.
 void note_sheet(const Node& node, const std::string& file, NodeProblems& problems) {
   problems.add(node, {(file.empty() ? "" : ": '" + file + "'") + " has no volume",
                       "it is drawn as a thin sheet, and cuts nothing"});
 }
 
-/// The faces of a polyhedron or a mesh under its matrix.
+/// Returns the faces of a polyhedron or a mesh under its matrix.
 FaceSet flat_faces_of(const Primitive& primitive) {
   FaceSet faces;
   const auto add_all = [&](std::span<const csgcore::Vec3> vertices, const auto& triangles) {
@@ -99,7 +100,7 @@ FaceSet flat_faces_of(const Primitive& primitive) {
   return faces;
 }
 
-/// A part of a final render that has another dimension than the first one.
+/// Tells that a part of a final render has another dimension than the first one.
 void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
   problems.add(node, {dimension == 2 ? ": Ignoring 2D child object for 3D operation"
                                      : ": Ignoring 3D child object for 2D operation",
@@ -171,7 +172,7 @@ const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
   return found != plane_leaves.end() && found->node == node ? &*found : nullptr;
 }
 
-/// False: the children do not matter, or are taken already.
+/// Takes a node. Returns false if its children do not matter, or are taken already.
 bool Collector::visit(uint32_t index) {
   const Node& node = tree_.nodes[index];
   if (is_of_either_dimension(index) && add_if_plane(index)) return false;
@@ -243,7 +244,7 @@ void Collector::enter_leaf(uint32_t node) {
   contexts_.push_back(context);
 }
 
-/// A `%` part is drawn beside the compound leaf that it stands in.
+/// Ends the compound leaf for a `%` part, which is drawn beside it.
 void Collector::leave_leaf(uint32_t node) {
   Context context = contexts_.back();
   context.node = node;

@@ -165,7 +165,7 @@ class Composer {
     }
   }
 
-  /// Whether the leaf is a plane figure that is seen from above, or a flat solid.
+  /// Returns whether the leaf is a plane figure that is seen from above, or a flat solid.
   bool is_plate(uint32_t leaf) const { return boxes_[leaf].size().z == 0; }
 
   static LeafTree union_of(std::span<const uint32_t> leaves) {

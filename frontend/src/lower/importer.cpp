@@ -163,7 +163,7 @@ class Emitter {
     add_leaf(entry->second, is_highlighted_within(node));
   }
 
-  /// Whether the node has `#`, or a node that is open.
+  /// Returns whether the node has `#`, or a node that is open.
   bool is_highlighted_within(uint32_t node) const {
     const uint8_t own = modifiers_of(tree_, collected_.selected, node);
     return open_.back().is_highlighted || (own & language::kHighlightModifier) != 0;
@@ -268,7 +268,7 @@ Box union_of(std::span<const Box> boxes) {
   return result;
 }
 
-/// Whether boxes decide about products: what is opaque needs none.
+/// Returns whether boxes decide about products: what is opaque needs none.
 bool needs_layers(const Collector& collected, PictureKind picture) {
   const auto& primitives = collected.primitives;
   return picture == PictureKind::kThrownTogether || collected.any_modifiers ||

@@ -78,7 +78,7 @@ class Multiplier {
   }
 
  private:
-  /// Whether each token stands under an odd number of subtractions.
+  /// Finds out whether each token stands under an odd number of subtractions.
   void find_signs(std::span<const CsgToken> tokens) {
     is_subtracted_.assign(tokens.size(), false);
     struct Open {

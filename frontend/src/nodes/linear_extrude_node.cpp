@@ -70,7 +70,7 @@ LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
   return {arguments, keeps_facets(options, asked)};
 }
 
-/// Whether a twist leaves the figures as they are.
+/// Returns whether a twist leaves the figures as they are.
 bool are_round(const std::vector<Figure>& figures, const TwistedLayers& layers) {
   return layers.top_scale.x == layers.top_scale.y &&
          std::all_of(figures.begin(), figures.end(), [](const Figure& figure) {

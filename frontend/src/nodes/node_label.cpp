@@ -59,7 +59,7 @@ class Writer {
     return a.is_number() && b.is_number() && a.number() == b.number();
   }
 
-  /// Whether a value says nothing: OpenSCAD writes it where the design does not.
+  /// Returns whether a value says nothing: OpenSCAD writes it where the design does not.
   bool is_usual(language::ArgumentName name, const ArgumentValue& value) const {
     if (value.is_undef()) return true;
     const double usual = name == "twist" ? 0 : name == "scale" ? 1 : name == "angle" ? 360 : -1;

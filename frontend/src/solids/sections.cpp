@@ -29,7 +29,7 @@ PlaneMap plan_at(const Affine& map, double z) {
   return plan;
 }
 
-/// Whether the map takes horizontal planes to horizontal planes.
+/// Returns whether the map takes horizontal planes to horizontal planes.
 bool is_upright(const Affine& map) { return map.linear[0].z == 0 && map.linear[1].z == 0; }
 
 /// A frustum or an extrusion, where the plane cuts it.

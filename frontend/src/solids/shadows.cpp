@@ -120,7 +120,7 @@ std::optional<Stretch> stretch_of_polyhedron(const Primitive& primitive) {
   return stretch;
 }
 
-/// Whether vertical lines stay vertical, and horizontal planes horizontal.
+/// Returns whether vertical lines stay vertical, and horizontal planes horizontal.
 bool keeps_vertical(const Affine& map) {
   return map.linear[0].z == 0 && map.linear[1].z == 0 && map.linear[2].x == 0 &&
          map.linear[2].y == 0;

@@ -152,7 +152,7 @@ class SlicedMesh {
     }
   }
 
-  /// Whether the diagonal from p1 to q2 is OpenSCAD's: it takes the shorter one.
+  /// Returns whether the diagonal from p1 to q2 is OpenSCAD's: it takes the shorter one.
   bool is_p1_q2(const Side& side, bool is_hole) const {
     // As OpenSCAD compares them.
     constexpr double kEqual = 0.5e-5;

@@ -23,7 +23,7 @@ struct SolidPart {
   /// The box of the corners that OpenSCAD has of it, in the coordinates around it.
   csgcore::Box box{};
 
-  /// Whether it is known to be convex.
+  /// Returns whether it is known to be convex.
   bool is_convex() const;
   /// Adds generators of its hull.
   void add_support(SupportSet& support) const;
@@ -43,7 +43,7 @@ struct SolidValue {
   csgcore::CsgTree tree;
 
   bool is_empty() const { return tree.empty(); }
-  /// Whether it is the union of its parts.
+  /// Returns whether it is the union of its parts.
   bool is_union() const;
   /// The union of the parts' boxes.
   csgcore::Box box() const;

@@ -52,7 +52,7 @@ class Extruding {
  private:
   Vec2 lean() const { return data_.arguments.lean / data_.arguments.height; }
 
-  /// Whether a twist leaves all figures as they are: they are discs about the axis.
+  /// Returns whether a twist leaves all figures as they are: they are discs about the axis.
   bool is_round(const FigureTree& figures) const {
     return layers_.top_scale.x == layers_.top_scale.y &&
            std::all_of(figures.figures.begin(), figures.figures.end(), [](const auto& placed) {

@@ -86,7 +86,7 @@ class FigureTreeWriter {
     builder_.close();
   }
 
-  /// All of a node that was evaluated, or of a drawing.
+  /// Adds all figures of a node that was evaluated, or of a drawing.
   void add_figures(uint32_t node) {
     const ImportedDrawing* drawing = subtree_.drawing(node);
     const std::span<const Figure> figures =

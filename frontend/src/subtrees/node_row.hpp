@@ -68,7 +68,7 @@ struct NodeRow {
   SolidValue (*solid)(SolidEvaluation& solids, uint32_t node) = nullptr;
 
   bool is_extrusion() const { return takes_figures && dimension == 3; }
-  /// Whether it has a place among Primitive::id, though it names no drawing.
+  /// Returns whether it has a place among Primitive::id, though it names no drawing.
   bool is_primitive() const {
     return role == Role::kSolid || (role == Role::kWhole && dimension == 2 && figures == nullptr);
   }

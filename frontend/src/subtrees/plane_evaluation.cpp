@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kBecauseManyCrossings = "its edges cross too often";
 
-/// Whether a node without children is a figure or letters, and those are empty.
+/// Returns whether a node without children is a figure or letters, and those are empty.
 bool is_empty_figure(const NodeData& data) {
   const auto* figure = std::get_if<FigureNode>(&data);
   if (figure != nullptr) return !figure->figure;
@@ -90,7 +90,8 @@ void PlaneEvaluation::combine(uint32_t node) {
   }
 }
 
-/// Its children are solids, and OpenSCAD does not tell of others that cast no shadow.
+/// Finds what a projection makes. Its children are solids, and OpenSCAD does not tell of others
+/// that cast no shadow.
 void PlaneEvaluation::project(uint32_t node) {
   Node& own = at(node);
   own.dimension = 2;
@@ -106,7 +107,7 @@ void PlaneEvaluation::project(uint32_t node) {
   own.projection = std::move(*projection);
 }
 
-/// OpenSCAD takes operands of the other dimension for empty ones.
+/// Makes operands of the other dimension empty ones, as OpenSCAD takes them.
 void PlaneEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension,
                                              NodeProblems& problems) {
   visit_operands(node, [&](uint32_t child) {

@@ -49,7 +49,7 @@ class PlaneEvaluation {
   Presence presence(uint32_t node) const { return at(node).presence; }
   /// 2 or 3; 0: it has none.
   uint8_t dimension(uint32_t node) const { return at(node).dimension; }
-  /// Whether the root makes something of solids.
+  /// Returns whether the root makes something of solids.
   bool is_solid() const { return at(subtree_.root()).dimension == 3; }
 
   /// Returns figures whose union is the node's, in the coordinates around it. Of an extrusion that

@@ -21,7 +21,7 @@ constexpr double kPlateThickness = 1;
 /// A plate that is subtracted is thicker by this factor.
 constexpr double kSubtractedPlateStretch = 1.1;
 
-/// OpenSCAD's box of a plane figure is that of what the operations leave.
+/// Returns OpenSCAD's box of a plane figure: that of what the operations leave.
 Box box_of_rest(PlaneEvaluation& evaluation, uint32_t root, const Affine& root_to_world) {
   evaluation.find_all_figures();
   Box box;
@@ -34,8 +34,8 @@ Box box_of_rest(PlaneEvaluation& evaluation, uint32_t root, const Affine& root_t
   return box.empty() ? box : mapped(root_to_world, box);
 }
 
-/// What the operations leave, without them: they may leave so little of large figures that a thin
-/// plate of it would be below the renderers' tolerance.
+/// Returns what the operations leave, without them: they may leave so little of large figures that
+/// a thin plate of it would be below the renderers' tolerance.
 FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uint32_t root,
                      uint32_t frame) {
   evaluation.find_all_figures();
@@ -50,7 +50,7 @@ FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uin
   return result;
 }
 
-/// A share of the figure's size that is below a pixel.
+/// Returns a share of the figure's size that is below a pixel.
 double flat_thickness(const FigureTree& figures) {
   constexpr double kShare = 0x1p-12;
   const Rectangle bounds = positive_bounds(figures);

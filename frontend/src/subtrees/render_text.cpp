@@ -37,7 +37,7 @@ std::string string_literal(std::string_view text) {
   return result + '"';
 }
 
-/// Whether it makes a solid in coordinates that no other node of the text moves.
+/// Returns whether it makes a solid in coordinates that no other node of the text moves.
 bool is_solid_leaf(NodeKind kind) { return row_of(kind).dimension == 3; }
 
 std::string matrix_text(const csgcore::Affine& map) {

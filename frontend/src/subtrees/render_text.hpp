@@ -16,7 +16,7 @@ namespace frontend {
 /// beside them as 2^-30.
 constexpr double kRenderScale = 1024;
 
-/// Whether OpenSCAD 2021.01 knows all nodes of the subtree.
+/// Returns whether OpenSCAD 2021.01 knows all nodes of the subtree.
 bool may_be_rendered(const NodeTree& tree, uint32_t root);
 
 /// Returns the request for the subtree, whose root stands in its own coordinates. Equal geometry

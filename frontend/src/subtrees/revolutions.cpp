@@ -56,7 +56,7 @@ class Revolving {
   }
 
  private:
-  /// The bounds of the result in the plane; nothing if it stands on both sides of the axis.
+  /// Returns the bounds of the result in the plane; nothing if it stands on both sides of the axis.
   std::optional<Rectangle> reach_of(const FigureTree& figures) {
     Rectangle reach = positive_bounds(figures);
     if (!(reach.min.x < 0 && reach.max.x > 0)) return reach;
@@ -67,7 +67,7 @@ class Revolving {
     return on_one_side(bounds_of(*outline), subtree_.syntax(subtree_.root()), problems_);
   }
 
-  /// The corners that OpenSCAD's rings have.
+  /// Returns the box of the corners that OpenSCAD's rings have.
   Box box_of_rings(const Rectangle& reach) const {
     Box box;
     TurnSections sections = sections_;

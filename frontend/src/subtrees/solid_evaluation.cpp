@@ -23,8 +23,8 @@ std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
   return std::move(values_.front());
 }
 
-/// The root, and the nodes of solids below it without those of other projections, whose figures are
-/// known.
+/// Returns the root, and the nodes of solids below it without those of other projections, whose
+/// figures are known.
 std::vector<uint32_t> SolidEvaluation::solid_nodes(uint32_t root) const {
   std::vector<uint32_t> result{root};
   for (uint32_t i = root + 1; i < subtree_.end_of(root);) {
