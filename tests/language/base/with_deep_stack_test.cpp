@@ -1,9 +1,9 @@
-#include "base/with_deep_stack.hpp"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <thread>
+
+#include "base/evaluation_thread.hpp"
 
 namespace language {
 namespace {

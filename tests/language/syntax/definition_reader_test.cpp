@@ -1,7 +1,6 @@
 // Definitions of libraries, whose trees are made when they are asked for.
-#include "syntax/definition_reader.hpp"
-
 #include "parsed_design.hpp"
+#include "syntax/parse_program.hpp"
 
 namespace language {
 namespace {

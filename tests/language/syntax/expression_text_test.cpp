@@ -1,6 +1,5 @@
-#include "syntax/expression_text.hpp"
-
 #include "parsed_design.hpp"
+#include "syntax/syntax.hpp"
 
 namespace language {
 namespace {

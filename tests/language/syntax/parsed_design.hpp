@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "syntax/expression_text.hpp"
 #include "syntax/parse_program.hpp"
+#include "syntax/syntax.hpp"
 
 namespace language {
 

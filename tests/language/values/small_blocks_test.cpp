@@ -1,10 +1,10 @@
-#include "values/small_blocks.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
 #include <thread>
 #include <vector>
+
+#include "values/object_memory.hpp"
 
 namespace language {
 namespace {

@@ -9,9 +9,19 @@
 #include <utility>
 #include <vector>
 
-#include "language/place.hpp"
-
 namespace language {
+
+/// Index of a file in SourceFiles.
+using FileId = uint32_t;
+constexpr FileId kNoFile = 0xFFFFFFFFu;
+
+/// A byte of a source file. SourceFiles turns it into lines and columns.
+struct Place {
+  FileId file = kNoFile;
+  uint32_t offset = 0;  // bytes from the file's start
+
+  bool operator==(const Place&) const = default;
+};
 
 class SourceFile {
  public:

@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include "base/mix_hash.hpp"
-
 namespace language {
 
 namespace {

@@ -41,4 +41,12 @@ class NameTable {
   std::vector<Slot> slots_ = std::vector<Slot>(256);  // open addressing, at most half full
 };
 
+/// Makes a number count in a hash. For one number, different hashes stay different, and the other
+/// way round: every step can be undone.
+inline uint64_t mix_hash(uint64_t hash, uint64_t number) {
+  constexpr uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
+  hash = (hash ^ number) * kFactor;
+  return hash ^ hash >> 32;
+}
+
 }  // namespace language

@@ -1,8 +1,12 @@
-// Numbers as text, in OpenSCAD's two formats (LANGUAGE.md, "Values").
+// Numbers: as text, in OpenSCAD's two formats (LANGUAGE.md, "Values"), of the language's text, and
+// as integers.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace language {
 
@@ -17,5 +21,16 @@ void append_general_number(std::string& out, double number);
 constexpr size_t kMostNumberText = 13;
 /// Writes what append_echo_number() appends. Returns its end.
 char* put_echo_number(char* out, double number);
+
+/// Returns the double nearest to a decimal number: digits with an optional point and exponent,
+/// no sign. Numbers that are too small give 0; nothing is returned for those that are too large.
+std::optional<double> decimal_number(std::string_view text);
+
+/// Returns the low 32 bits of a number cut to an integer; 0 for what 64 bits cannot hold.
+inline uint32_t low_bits(double number) {
+  constexpr double kEnd = 9223372036854775808.0;
+  if (!(number >= -kEnd && number < kEnd)) return 0;
+  return static_cast<uint32_t>(static_cast<int64_t>(number));
+}
 
 }  // namespace language

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 namespace language {
 
@@ -46,6 +47,20 @@ std::optional<std::string> read_regular_file(const std::string& path) {
   // A pipe that has taken its place since then is not waited for, and read as empty.
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   return descriptor < 0 ? std::nullopt : read_all(fdopen(descriptor, "rb"), path);
+}
+
+namespace fs = std::filesystem;
+
+fs::path resolved(const fs::path& path) {
+  std::error_code failed;
+  fs::path result = fs::weakly_canonical(path, failed);
+  return failed ? path.lexically_normal() : result;
+}
+
+fs::path resolved_file(const fs::path& path) {
+  const fs::path name = path.filename();
+  if (name.empty() || name == "." || name == "..") return resolved(path);
+  return resolved(path.parent_path()) / name;
 }
 
 }  // namespace language

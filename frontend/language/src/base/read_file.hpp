@@ -1,7 +1,8 @@
-// Reads whole files.
+// Reads whole files, and resolves paths.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,11 @@ std::optional<std::string> read_file(const std::string& path);
 bool is_regular_file(const std::string& path);
 /// The same as read_file(); nothing if the file is not regular.
 std::optional<std::string> read_regular_file(const std::string& path);
+
+/// Returns a path without `.` and `..`, and without links where it exists.
+std::filesystem::path resolved(const std::filesystem::path& path);
+
+/// The same, but a file that is a link itself keeps its name.
+std::filesystem::path resolved_file(const std::filesystem::path& path);
 
 }  // namespace language

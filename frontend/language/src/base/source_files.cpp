@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "base/resolved_path.hpp"
+#include "base/read_file.hpp"
 
 namespace language {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "code/captures.hpp"
 #include "code/code_builder.hpp"
 #include "code/compiler.hpp"
+#include "code/expression_facts.hpp"
 
 namespace language {
 

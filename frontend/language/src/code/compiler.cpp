@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "code/constants.hpp"
+#include "code/expression_facts.hpp"
 
 namespace language {
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/name_index.hpp"
+#include "base/name_list.hpp"
 
 namespace language {
 
@@ -57,11 +57,22 @@ class ScopeLayout {
   const uint32_t heap_depth;  // number of heap scopes from the file's top level to here
 
   /// Adds a variable, at the end of what has the same name.
-  ScopeVariable& add(Name name, uint32_t slot);
+  ScopeVariable& add(Name name, uint32_t slot) {
+    return variables_.emplace_back(ScopeVariable{name, slot});
+  }
   /// Adds a variable of a heap scope in its next slot, unless it is there.
-  ScopeVariable& declare(Name name);
-  const ScopeVariable* find(Name name) const;
-  ScopeVariable* find(Name name);
+  ScopeVariable& declare(Name name) {
+    ScopeVariable* const found = find(name);
+    return found ? *found : add(name, size());
+  }
+  const ScopeVariable* find(Name name) const {
+    const uint32_t position =
+        index_.find(name, variables_.size(), [&](uint32_t i) { return variables_[i].name; });
+    return position == NameIndex::kNone ? nullptr : &variables_[position];
+  }
+  ScopeVariable* find(Name name) {
+    return const_cast<ScopeVariable*>(static_cast<const ScopeLayout*>(this)->find(name));
+  }
   uint32_t size() const { return static_cast<uint32_t>(variables_.size()); }
   const std::vector<ScopeVariable>& variables() const { return variables_; }
 

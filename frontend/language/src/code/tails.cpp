@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "code/code_compiler.hpp"
-#include "code/constants.hpp"
+#include "code/expression_facts.hpp"
 
 namespace language {
 namespace {

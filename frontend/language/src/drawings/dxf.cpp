@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/decimal_number.hpp"
+#include "base/number_text.hpp"
 
 namespace language {
 namespace {

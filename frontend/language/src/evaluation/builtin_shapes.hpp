@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/name_table.hpp"
-#include "code/builtins.hpp"
+#include "code/compiler.hpp"
 
 namespace language {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "base/mix_hash.hpp"
+#include "base/name_table.hpp"
 #include "evaluation/machine.hpp"
 #include "values/copies.hpp"
 #include "values/object_memory.hpp"

@@ -1,7 +1,7 @@
 // children() and child().
 #include <limits>
 
-#include "base/work_meter.hpp"
+#include "base/evaluation_thread.hpp"
 #include "evaluation/machine.hpp"
 #include "language/make.hpp"
 #include "values/range.hpp"

@@ -1,6 +1,6 @@
 #include "evaluation/closure.hpp"
 
-#include "syntax/expression_text.hpp"
+#include "syntax/syntax.hpp"
 
 namespace language {
 

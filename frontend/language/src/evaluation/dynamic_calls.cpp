@@ -2,7 +2,7 @@
 // that are done, the trail's mark, the arguments in their order, the evaluated defaults.
 #include "evaluation/machine.hpp"
 #include "language/make.hpp"
-#include "syntax/expression_text.hpp"
+#include "syntax/syntax.hpp"
 
 namespace language {
 namespace {

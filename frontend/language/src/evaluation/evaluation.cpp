@@ -4,8 +4,7 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "base/with_deep_stack.hpp"
-#include "base/work_meter.hpp"
+#include "base/evaluation_thread.hpp"
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/cache_parts.hpp"
 #include "evaluation/machine.hpp"

@@ -1,7 +1,7 @@
 // Function calls by name, and the frames of all calls.
 #include "evaluation/machine.hpp"
 #include "evaluation/operation_limit.hpp"
-#include "syntax/expression_text.hpp"
+#include "syntax/syntax.hpp"
 #include "values/object_memory.hpp"
 
 namespace language {

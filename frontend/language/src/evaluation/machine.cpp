@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "code/constants.hpp"
+#include "code/expression_facts.hpp"
 #include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/value_text.hpp"

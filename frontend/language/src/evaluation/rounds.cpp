@@ -1,6 +1,6 @@
 // Loops: over ranges, vectors, strings and single values.
+#include "base/evaluation_thread.hpp"
 #include "base/utf8.hpp"
-#include "base/work_meter.hpp"
 #include "evaluation/machine.hpp"
 #include "language/make.hpp"
 #include "values/range.hpp"

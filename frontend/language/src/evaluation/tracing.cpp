@@ -1,7 +1,7 @@
 // Messages with their places, errors with their traces, limits.
 #include "evaluation/machine.hpp"
 #include "language/stopped.hpp"
-#include "syntax/expression_text.hpp"
+#include "syntax/syntax.hpp"
 #include "values/object_memory.hpp"
 
 namespace language {

@@ -4,7 +4,7 @@
 #include "evaluation/machine.hpp"
 #include "evaluation/operation_limit.hpp"
 #include "language/make.hpp"
-#include "syntax/expression_text.hpp"
+#include "syntax/syntax.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"

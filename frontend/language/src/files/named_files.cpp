@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/resolved_path.hpp"
+#include "base/read_file.hpp"
 
 namespace language {
 namespace {

@@ -26,12 +26,62 @@
 //   memory.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <random>
 #include <span>
+#include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 
-#include "functions/function_call.hpp"
+#include "files/named_files.hpp"
+#include "language/source_files.hpp"
+#include "language/value.hpp"
+#include "messages/messages.hpp"
 
 namespace language {
+
+/// What builtin functions use besides their arguments; one per evaluation.
+struct FunctionEnvironment {
+  Messages& messages;
+  NamedFiles& files;
+  std::mt19937 random;  // of rands(), seeded by time and process unless a call seeds it
+  /// Names of the user modules on the stack, outermost first: parent_module() reads them.
+  std::span<const std::string_view> module_names{};
+  /// What dxf_dim() and dxf_cross() have found.
+  std::unordered_map<std::string, Value> measures{};
+};
+
+struct FunctionCall {
+  std::string_view name;  // of the function
+  size_t written;         // arguments that the call has
+  /// The arguments that have been evaluated, in that order. A call may move them away.
+  std::span<Value> arguments;
+  Place place;  // of the call
+  FunctionEnvironment& environment;
+  /// Of the written arguments; empty: it has none. Only of functions with next_argument(); others
+  /// ignore names.
+  std::span<const std::string_view> names{};
+
+  /// Says a warning at the call.
+  void warn(std::string text) const { environment.messages.warn(std::move(text), place); }
+};
+
+constexpr uint16_t kAnyCount = 0xFFFF;
+constexpr size_t kNoArgument = SIZE_MAX;
+
+struct BuiltinFunction {
+  std::string_view name;
+  uint16_t least_arguments;  // fewer or more: "‹f›() number of parameters does not match", undef,
+  uint16_t most_arguments;  // and no argument is evaluated
+  Value (*call)(const FunctionCall& call);
+  /// A function that does not evaluate all its arguments has this: it returns which of the written
+  /// arguments is evaluated next, given those that have been, or kNoArgument. Each value is added
+  /// to the call's arguments, also where an argument is evaluated for a second time. Null: all are
+  /// evaluated, in the order in which they are written.
+  size_t (*next_argument)(const FunctionCall& call) = nullptr;
+};
 
 /// All but those which the evaluator has to see through: is_undef, echo, assert, let. Sorted by
 /// name.
@@ -41,3 +91,78 @@ std::span<const BuiltinFunction> builtin_functions();
 const BuiltinFunction* find_builtin_function(std::string_view name);
 
 }  // namespace language
+
+namespace language::functions {
+
+// numbers.cpp
+Value absolute(const FunctionCall& call);
+Value sign(const FunctionCall& call);
+Value floor(const FunctionCall& call);
+Value ceiling(const FunctionCall& call);
+Value round(const FunctionCall& call);
+Value square_root(const FunctionCall& call);
+Value exponential(const FunctionCall& call);
+Value natural_logarithm(const FunctionCall& call);
+Value sine(const FunctionCall& call);
+Value cosine(const FunctionCall& call);
+Value tangent(const FunctionCall& call);
+Value arc_sine(const FunctionCall& call);
+Value arc_cosine(const FunctionCall& call);
+Value arc_tangent(const FunctionCall& call);
+Value arc_tangent_of_two(const FunctionCall& call);
+Value power(const FunctionCall& call);
+Value logarithm(const FunctionCall& call);
+Value minimum(const FunctionCall& call);
+Value maximum(const FunctionCall& call);
+
+// vectors.cpp
+Value norm(const FunctionCall& call);
+Value cross(const FunctionCall& call);
+Value length(const FunctionCall& call);
+Value concatenation(const FunctionCall& call);
+
+// texts.cpp
+Value string(const FunctionCall& call);
+Value characters(const FunctionCall& call);
+Value code_point(const FunctionCall& call);
+
+// lookup.cpp, search.cpp, rands.cpp
+Value lookup(const FunctionCall& call);
+Value search(const FunctionCall& call);
+Value random_numbers(const FunctionCall& call);
+
+// drawings.cpp
+Value drawing_dimension(const FunctionCall& call);
+Value drawing_cross(const FunctionCall& call);
+
+// facts.cpp
+Value version(const FunctionCall& call);
+Value version_number(const FunctionCall& call);
+Value is_list(const FunctionCall& call);
+Value is_number(const FunctionCall& call);
+Value is_bool(const FunctionCall& call);
+Value is_string(const FunctionCall& call);
+Value is_function(const FunctionCall& call);
+Value parent_module(const FunctionCall& call);
+
+/// The rules by which arguments are evaluated: until one is no number; none; the first alone; the
+/// first four; all if there are as many as the function takes, else none; lookup()'s key, which is
+/// evaluated twice if it is no finite number, and then its table if it is.
+size_t next_while_numbers(const FunctionCall& call);
+size_t next_of_none(const FunctionCall& call);
+size_t next_of_one(const FunctionCall& call);
+size_t next_of_four(const FunctionCall& call);
+size_t next_of_exactly_one(const FunctionCall& call);
+size_t next_of_exactly_two(const FunctionCall& call);
+size_t next_of_lookup(const FunctionCall& call);
+
+/// The same of chr(), rands(), dxf_dim() and dxf_cross(), which warn of an argument before the next
+/// one is evaluated.
+size_t next_of_characters(const FunctionCall& call);
+size_t next_of_random_numbers(const FunctionCall& call);
+size_t next_of_drawing(const FunctionCall& call);
+
+/// Warns that an argument has the wrong type, and returns undef.
+Value not_converted(const FunctionCall& call);
+
+}  // namespace language::functions

@@ -7,7 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "base/read_file.hpp"
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/degrees.hpp"
 #include "language/dxf.hpp"
 #include "language/dxf_chains.hpp"

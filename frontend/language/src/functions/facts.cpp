@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/make.hpp"
 
 namespace language::functions {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <optional>
 
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "values/value_text.hpp"
 
 namespace language::functions {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/degrees.hpp"
 #include "values/operators.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "base/work_meter.hpp"
-#include "functions/functions.hpp"
+#include "base/evaluation_thread.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/make.hpp"
 
 namespace language::functions {

@@ -1,10 +1,10 @@
 #include <optional>
 #include <string>
 
-#include "base/number_conversions.hpp"
+#include "base/evaluation_thread.hpp"
+#include "base/number_text.hpp"
 #include "base/utf8.hpp"
-#include "base/work_meter.hpp"
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/make.hpp"
 #include "values/operators.hpp"
 #include "values/value_text.hpp"

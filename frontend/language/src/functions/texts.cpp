@@ -3,10 +3,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/number_conversions.hpp"
+#include "base/evaluation_thread.hpp"
+#include "base/number_text.hpp"
 #include "base/utf8.hpp"
-#include "base/work_meter.hpp"
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/make.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "functions/functions.hpp"
+#include "functions/builtin_functions.hpp"
 #include "language/make.hpp"
 
 namespace language::functions {

@@ -10,7 +10,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "language/place.hpp"
 #include "language/source_files.hpp"
 
 namespace language {

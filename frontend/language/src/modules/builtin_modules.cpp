@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "modules/makers.hpp"
-
 namespace language {
 namespace {
 
@@ -29,7 +27,7 @@ constexpr std::string_view kLinearExtrude[] = {"file",  "layer",  "height", "ori
 constexpr std::string_view kRotateExtrude[] = {"file", "layer", "origin", "scale"};
 constexpr std::string_view kRotateExtrudeNamed[] = {"convexity", "angle"};
 constexpr std::string_view kCut[] = {"cut"};
-constexpr std::string_view kConvexity[] = {"convexity"};
+constexpr std::string_view kOnlyConvexity[] = {"convexity"};
 constexpr std::string_view kOffsetNamed[] = {"delta", "chamfer"};
 constexpr std::string_view kResize[] = {"newsize", "auto", "convexity"};
 constexpr std::string_view kImport[] = {"file", "layer", "convexity", "origin", "scale"};
@@ -47,7 +45,7 @@ constexpr BuiltinModule kModules[] = {
     {"color", kColor, {}, kTakes, make_color},
     {"cube", kSizeCenter, {}, kRefuses, make_cube},
     {"cylinder", kCylinder, kCylinderNamed, kRefuses, make_cylinder},
-    {"dxf_linear_extrude", kLinearExtrude, kConvexity, kTakes, make_linear_extrude,
+    {"dxf_linear_extrude", kLinearExtrude, kOnlyConvexity, kTakes, make_linear_extrude,
      "linear_extrude()", wants_height},
     {"dxf_rotate_extrude", kRotateExtrude, kRotateExtrudeNamed, kTakes, make_rotate_extrude,
      "rotate_extrude()"},
@@ -56,15 +54,21 @@ constexpr BuiltinModule kModules[] = {
     {"import_dxf", kImport, kImportNamed, kIgnores, make_typed_import, "import()"},
     {"import_off", kImport, kImportNamed, kIgnores, make_typed_import, "import()"},
     {"import_stl", kImport, kImportNamed, kIgnores, make_typed_import, "import()"},
-    {"linear_extrude", kLinearExtrude, kConvexity, kTakes, make_linear_extrude, {}, wants_height},
-    {"minkowski", kConvexity, {}, kTakes, make_minkowski},
+    {"linear_extrude",
+     kLinearExtrude,
+     kOnlyConvexity,
+     kTakes,
+     make_linear_extrude,
+     {},
+     wants_height},
+    {"minkowski", kOnlyConvexity, {}, kTakes, make_minkowski},
     {"mirror", kV, {}, kTakes, make_mirror},
     {"multmatrix", kM, {}, kTakes, make_multmatrix},
     {"offset", kR, kOffsetNamed, kTakes, make_offset},
     {"polygon", kPolygon, {}, kRefuses, make_polygon},
     {"polyhedron", kPolyhedron, kTriangles, kRefuses, make_polyhedron},
-    {"projection", kCut, kConvexity, kTakes, make_projection},
-    {"render", kConvexity, {}, kTakes, make_render},
+    {"projection", kCut, kOnlyConvexity, kTakes, make_projection},
+    {"render", kOnlyConvexity, {}, kTakes, make_render},
     {"resize", kResize, {}, kTakes, make_resize},
     {"rotate", kRotate, {}, kTakes, make_rotate},
     {"rotate_extrude", kRotateExtrude, kRotateExtrudeNamed, kTakes, make_rotate_extrude},

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "language/color_names.hpp"
-#include "modules/makers.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "modules/makers.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "modules/builtin_call.hpp"
+#include "modules/builtin_modules.hpp"
 
 namespace language {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/makers.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/work_meter.hpp"
-#include "modules/makers.hpp"
+#include "base/evaluation_thread.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 #include "values/function_object.hpp"
 #include "values/value_text.hpp"

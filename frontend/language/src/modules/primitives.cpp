@@ -1,7 +1,7 @@
 // cube, square, sphere, circle, cylinder.
 #include <cmath>
 
-#include "modules/makers.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {

@@ -1,7 +1,7 @@
 // text().
 #include <string>
 
-#include "modules/makers.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 #include "modules/scripts.hpp"
 

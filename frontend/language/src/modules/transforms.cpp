@@ -7,7 +7,7 @@
 
 #include "language/degrees.hpp"
 #include "language/make.hpp"
-#include "modules/makers.hpp"
+#include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {

@@ -1,9 +1,11 @@
-// Which bytes the language's tokens consist of (LANGUAGE.md, "Text").
+// Which bytes the language's tokens consist of, and what escapes in strings mean (LANGUAGE.md,
+// "Text").
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "syntax/token.hpp"
@@ -63,5 +65,10 @@ TokenKind sign_kind(const char* text);
 inline bool is_two_bytes(TokenKind kind) {
   return TokenKind::kLessEqual <= kind && kind <= TokenKind::kShiftRight;
 }
+
+/// Appends what the escape at the start of a text stands for, and returns the escape's length. A
+/// backslash that begins none stands for nothing. The text begins with a backslash and ends with
+/// a NUL.
+size_t append_escape(const char* text, std::string& value);
 
 }  // namespace language

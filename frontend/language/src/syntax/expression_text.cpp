@@ -1,10 +1,9 @@
-#include "syntax/expression_text.hpp"
-
 #include <array>
 #include <initializer_list>
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "syntax/syntax.hpp"
 
 namespace language {
 

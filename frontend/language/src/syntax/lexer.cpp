@@ -4,9 +4,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/decimal_number.hpp"
+#include "base/number_text.hpp"
 #include "base/utf8.hpp"
-#include "syntax/string_escape.hpp"
+#include "syntax/characters.hpp"
 
 namespace language {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "syntax/parameter_text.hpp"
+#include "syntax/parameter_set.hpp"
 
 namespace language {
 

@@ -2,7 +2,8 @@
 
 #include <exception>
 
-#include "base/with_deep_stack.hpp"
+#include "base/evaluation_thread.hpp"
+#include "syntax/parser.hpp"
 #include "syntax/program_reader.hpp"
 
 namespace language {
@@ -35,6 +36,29 @@ ParseOutcome parse_program(Program& program, Messages& messages, const std::stri
   ParseOutcome outcome{};
   with_deep_stack([&] { outcome = parse_here(program, messages, path, options); });
   return outcome;
+}
+
+template <typename Definition, typename Parse>
+auto& DefinitionReader::content_of(const Definition& definition, Parse parse) {
+  auto& content = *definition.content;
+  if (!content.body) {
+    NoFiles no_files;
+    Lexer lexer(program_.files, program_.names, *content.arena, messages_, no_files,
+                {definition.place.file, {}, false});
+    lexer.go_on_at(definition.extent.begin);
+    Parser parser(lexer, program_, messages_, stop_);
+    content = *parse(parser).content;
+  }
+  return content;
+}
+
+const FunctionDefinition::Content& DefinitionReader::content_of(
+    const FunctionDefinition& function) {
+  return content_of(function, [](Parser& parser) { return parser.parse_function(); });
+}
+
+const ModuleDefinition::Content& DefinitionReader::content_of(const ModuleDefinition& module) {
+  return content_of(module, [](Parser& parser) { return parser.parse_module(); });
 }
 
 }  // namespace language

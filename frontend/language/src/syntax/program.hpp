@@ -3,7 +3,10 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/name_table.hpp"
@@ -24,6 +27,14 @@ struct Unit {
   /// Versions of the files that its text stems from, in the order of reading: two units for which
   /// they are the same have the same text. 0: the main file, which is never known to be the same.
   std::vector<uint64_t> versions;
+};
+
+/// How a design is parsed.
+struct ParseOptions {
+  std::vector<std::string> definitions;  // -D, in order, as typed
+  bool hard_warnings = false;
+  std::stop_token stop;
+  std::optional<std::string_view> text;  // of the main file; nothing: it is read
 };
 
 struct Program {

@@ -1,17 +1,40 @@
-// Reads the files of a design while they are parsed.
+// Finds and reads the files of a design while they are parsed.
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "messages/messages.hpp"
-#include "syntax/file_lookup.hpp"
-#include "syntax/library_search.hpp"
-#include "syntax/parse_options.hpp"
+#include "syntax/lexer.hpp"
 #include "syntax/program.hpp"
 
 namespace language {
+
+/// Finds files as `include` and `use` do (LANGUAGE.md, "Text"), in the order: absolute path; the
+/// folder of the file that names it; the parts of OPENSCADPATH; the user's and the system's library
+/// folder.
+class LibrarySearch {
+ public:
+  /// Reads the environment. Absolute paths that were tried and do not exist are added to `lookups`.
+  explicit LibrarySearch(std::vector<std::string>& lookups);
+
+  /// Returns the absolute path of a file that is named in a file of `folder` (absolute). Links and
+  /// dots are followed, except, as in OpenSCAD, where a library folder has it: then its path is
+  /// that of the library folder, and the name. Empty: there is none but folders and the paths in
+  /// `excluded`.
+  std::string find(std::string_view name, const std::string& folder,
+                   std::span<const std::string> excluded = {});
+
+ private:
+  bool is_file(const std::filesystem::path& path);
+
+  std::vector<std::string>& lookups_;
+  std::vector<std::string> library_folders_;  // absolute
+};
 
 class ProgramReader : public FileLookup {
  public:

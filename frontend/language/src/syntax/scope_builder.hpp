@@ -1,12 +1,13 @@
 // Gathers what stands in a scope.
 #pragma once
 
+#include <utility>
 #include <vector>
 
-#include "base/name_index.hpp"
+#include "base/name_list.hpp"
 #include "syntax/arena.hpp"
 #include "syntax/arena_list.hpp"
-#include "syntax/kept_file.hpp"
+#include "syntax/kept_sources.hpp"
 #include "syntax/syntax.hpp"
 
 namespace language {
@@ -51,7 +52,16 @@ class ScopeBuilder {
 
   /// Adds an assignment. Returns the place of the one that it overwrites, which has no file if
   /// there is none: that one keeps its position in the list.
-  Place add(const Assignment& assignment);
+  Place add(const Assignment& assignment) {
+    note(assignment);
+    Assignment* older = assignments_.find(assignment.name);
+    if (!older) {
+      assignments_.push(assignment);
+      return {};
+    }
+    older->value = assignment.value;
+    return std::exchange(older->place, assignment.place);
+  }
   void add(const FunctionDefinition& definition) { replace(functions_, definition); }
   void add(const ModuleDefinition& definition) { replace(modules_, definition); }
   void add(const ModuleCall& call) {
@@ -59,7 +69,14 @@ class ScopeBuilder {
     calls_.push(call);
   }
   /// Returns the scope, in an arena.
-  const Scope* finish(Arena& arena) const;
+  const Scope* finish(Arena& arena) const {
+    auto* scope = new (arena.allocate(sizeof(Scope), alignof(Scope))) Scope;
+    scope->assignments = assignments_.finish(arena);
+    scope->functions = functions_.finish(arena);
+    scope->modules = modules_.finish(arena);
+    scope->calls = calls_.finish(arena);
+    return scope;
+  }
 
  private:
   void note(const TopLevelItem& item) {

@@ -4,11 +4,12 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/name_table.hpp"
-#include "language/call_modifier.hpp"
-#include "language/place.hpp"
+#include "language/node_kind.hpp"
+#include "language/source_files.hpp"
 
 namespace language {
 
@@ -182,7 +183,7 @@ struct ModuleCall {
 class Arena;
 
 /// What a definition says behind its name. Most of a library is never called, so a definition of a
-/// kept file has this made when it is first asked for: definition_reader.hpp.
+/// kept file has this made when it is first asked for: DefinitionReader.
 template <typename Body>
 struct DefinitionContent {
   std::span<const Parameter> parameters;
@@ -220,5 +221,8 @@ struct Scope {
   std::span<const ModuleDefinition> modules;
   std::span<const ModuleCall> calls;
 };
+
+/// Appends an expression in OpenSCAD's normal form (LANGUAGE.md, "Grammar"). Does not recurse.
+void append_expression_text(std::string& out, const Expression& expression, const NameTable& names);
 
 }  // namespace language

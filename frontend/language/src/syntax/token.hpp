@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/name_table.hpp"
-#include "language/place.hpp"
+#include "language/source_files.hpp"
 
 namespace language {
 

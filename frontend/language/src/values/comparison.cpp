@@ -1,14 +1,22 @@
-#include "values/comparison.hpp"
-
+// How values compare (LANGUAGE.md, "Values"): without recursion, however deeply vectors nest.
 #include <algorithm>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
-#include "base/work_meter.hpp"
-#include "values/level_stack.hpp"
+#include "values/operators.hpp"
 #include "values/range.hpp"
+#include "values/tree_map.hpp"
 
 namespace language {
 namespace {
+
+enum class Ordering : uint8_t {
+  kLess,
+  kGreater,
+  kNeither,    // equal, or not comparable numbers (NaN)
+  kUndefined,  // OpenSCAD refuses to compare them; the problem says why
+};
 
 template <typename T>
 Ordering ordering_of(const T& left, const T& right) {
@@ -81,8 +89,7 @@ void append_indices(const LevelStack<Pair>& pairs, std::string& text) {
     text += "\n\tin vector comparison at index " + std::to_string(pair->next - 1);
 }
 
-}  // namespace
-
+// Compares two values for an operator that `sign` spells; elements of vectors are compared by "<".
 Ordering order(const Value& left, std::string_view sign, const Value& right,
                OperatorProblem& problem) {
   if (!left.is_vector() || !right.is_vector()) return order_leaves(left, sign, right, problem);
@@ -110,7 +117,40 @@ Ordering order(const Value& left, std::string_view sign, const Value& right,
   }
 }
 
-bool are_equal(const Value& left, const Value& right) {
+Value compared(Ordering ordering, bool is_less, bool is_neither, bool is_greater) {
+  if (ordering == Ordering::kUndefined) return Value::undef();
+  return Value::boolean(ordering == Ordering::kLess      ? is_less
+                        : ordering == Ordering::kGreater ? is_greater
+                                                         : is_neither);
+}
+
+}  // namespace
+
+namespace operators {
+
+Value less(const Value& left, const Value& right, OperatorProblem& problem) {
+  return compared(order(left, "<", right, problem), true, false, false);
+}
+
+Value less_equal(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_vector())  // "not greater", which differs with NaN
+    return compared(order(right, "<", left, problem), false, true, true);
+  return compared(order(left, "<=", right, problem), true, true, false);
+}
+
+Value greater(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_vector())
+    return compared(order(right, "<", left, problem), true, false, false);
+  return compared(order(left, ">", right, problem), false, false, true);
+}
+
+Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_vector())
+    return compared(order(left, "<", right, problem), false, true, true);
+  return compared(order(left, ">=", right, problem), false, true, true);
+}
+
+bool equal(const Value& left, const Value& right) {
   if (!left.is_vector() || !right.is_vector()) return are_leaves_equal(left, right);
   LevelStack<Pair> pairs;
   pairs.push(left, right);
@@ -132,4 +172,5 @@ bool are_equal(const Value& left, const Value& right) {
   return true;
 }
 
+}  // namespace operators
 }  // namespace language

@@ -6,12 +6,20 @@
 #include <limits>
 #include <span>
 
-#include "values/comparison.hpp"
 #include "values/tree_map.hpp"
-#include "values/vector_products.hpp"
 
 namespace language {
 namespace {
+
+void append_types(std::string& out, const Value& left, std::string_view sign, const Value& right) {
+  out += '(';
+  out += type_name(left.type());
+  out += ' ';
+  out += sign;
+  out += ' ';
+  out += type_name(right.type());
+  out += ')';
+}
 
 Value undefined(const Value& left, std::string_view sign, const Value& right,
                 OperatorProblem& problem) {
@@ -92,14 +100,19 @@ Value scaled(double factor, const Value& vector) {
   return map_numbers(vector, [factor](double number) { return factor * number; });
 }
 
-Value compared(Ordering ordering, bool is_less, bool is_neither, bool is_greater) {
-  if (ordering == Ordering::kUndefined) return Value::undef();
-  return Value::boolean(ordering == Ordering::kLess      ? is_less
-                        : ordering == Ordering::kGreater ? is_greater
-                                                         : is_neither);
+}  // namespace
+
+std::string undefined_operation(const Value& left, std::string_view sign, const Value& right) {
+  std::string text = "undefined operation ";
+  append_types(text, left, sign, right);
+  return text;
 }
 
-}  // namespace
+std::string operation_undefined(const Value& left, std::string_view sign, const Value& right) {
+  std::string text = "operation undefined ";
+  append_types(text, left, sign, right);
+  return text;
+}
 
 namespace operators {
 
@@ -163,30 +176,6 @@ Value complement(const Value& operand, OperatorProblem& problem) {
   if (!operand.is_number()) return undefined('~', operand, problem);
   return number_of(~bits_of(operand));
 }
-
-Value less(const Value& left, const Value& right, OperatorProblem& problem) {
-  return compared(order(left, "<", right, problem), true, false, false);
-}
-
-Value less_equal(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (left.is_vector() && right.is_vector())  // "not greater", which differs with NaN
-    return compared(order(right, "<", left, problem), false, true, true);
-  return compared(order(left, "<=", right, problem), true, true, false);
-}
-
-Value greater(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (left.is_vector() && right.is_vector())
-    return compared(order(right, "<", left, problem), true, false, false);
-  return compared(order(left, ">", right, problem), false, false, true);
-}
-
-Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (left.is_vector() && right.is_vector())
-    return compared(order(left, "<", right, problem), false, true, true);
-  return compared(order(left, ">=", right, problem), false, true, true);
-}
-
-bool equal(const Value& left, const Value& right) { return are_equal(left, right); }
 
 }  // namespace operators
 }  // namespace language

@@ -3,12 +3,30 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "language/value.hpp"
-#include "values/operator_problem.hpp"
 
 namespace language {
+
+/// Returns whether an operator works on two numbers.
+inline bool are_numbers(const Value& left, const Value& right) {
+  return left.is_number() && right.is_number();
+}
+
+/// What an operator has to say beside its result. Both are warnings; empty: nothing.
+struct OperatorProblem {
+  std::string unplaced;  // said first, without a place
+  std::string text;      // said at the operator expression's place
+};
+
+/// Returns "undefined operation (number + string)".
+std::string undefined_operation(const Value& left, std::string_view sign, const Value& right);
+
+/// Returns "operation undefined (undefined < undefined)", which is said where two values of one
+/// type have no order.
+std::string operation_undefined(const Value& left, std::string_view sign, const Value& right);
 
 namespace operators {
 Value add(const Value& left, const Value& right, OperatorProblem& problem);
@@ -29,6 +47,9 @@ Value greater(const Value& left, const Value& right, OperatorProblem& problem);
 Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem);
 bool equal(const Value& left, const Value& right);
 Value index(const Value& container, const Value& index);
+/// Returns left * right of two vectors: a dot product, or a product with a matrix, as their first
+/// elements say.
+Value multiply_vectors(const Value& left, const Value& right, OperatorProblem& problem);
 }  // namespace operators
 
 inline Value add(const Value& left, const Value& right, OperatorProblem& problem) {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <new>
 
-#include "base/number_conversions.hpp"
+#include "base/number_text.hpp"
 #include "values/object_memory.hpp"
 
 namespace language {

@@ -1,16 +1,44 @@
-// New vectors from nested ones, without recursion, however deeply they nest.
+// Walks through nested vectors, without recursion, however deeply they nest.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory_resource>
 #include <span>
 #include <utility>
+#include <vector>
 
-#include "base/work_meter.hpp"
+#include "base/evaluation_thread.hpp"
 #include "language/make.hpp"
-#include "values/level_stack.hpp"
-#include "values/too_large.hpp"
+#include "values/object_memory.hpp"
 
 namespace language {
+
+/// A stack that takes memory from the heap only beyond a few levels.
+template <typename Level>
+class LevelStack {
+ public:
+  LevelStack() { levels_.reserve(kFewLevels); }
+  LevelStack(const LevelStack&) = delete;
+  LevelStack& operator=(const LevelStack&) = delete;
+
+  template <typename... Arguments>
+  void push(Arguments&&... arguments) {
+    levels_.emplace_back(std::forward<Arguments>(arguments)...);
+  }
+  void pop() { levels_.pop_back(); }
+  bool empty() const { return levels_.empty(); }
+  Level& top() { return levels_.back(); }
+  const std::pmr::vector<Level>& levels() const { return levels_; }
+
+ private:
+  static constexpr size_t kFewLevels = 4;
+
+  alignas(Level) std::array<std::byte, kFewLevels * sizeof(Level)> room_;
+  std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+  std::pmr::vector<Level> levels_{&memory_};
+};
 
 /// Lets levels of nested vectors be filled, each of which has
 ///   bool fill(): appends leaves to its `result`, which has room for all elements; false: the level

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "base/evaluation_thread.hpp"
 #include "base/number_text.hpp"
-#include "base/work_meter.hpp"
 #include "values/function_object.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"

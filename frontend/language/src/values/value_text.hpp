@@ -5,7 +5,7 @@
 #include <string>
 
 #include "language/value.hpp"
-#include "values/too_large.hpp"
+#include "values/object_memory.hpp"
 
 namespace language {
 

@@ -1,13 +1,13 @@
-#include "values/vector_products.hpp"
-
+// Products of two vectors, vectors of vectors among them (LANGUAGE.md, "Values").
 #include <algorithm>
 #include <array>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "base/work_meter.hpp"
+#include "base/evaluation_thread.hpp"
 #include "language/make.hpp"
+#include "values/operators.hpp"
 
 namespace language {
 namespace {
@@ -188,8 +188,8 @@ Value matrix_times_matrix(Row left, Row right, OperatorProblem& problem) {
 
 }  // namespace
 
-Value multiply_vectors(const Value& left_vector, const Value& right_vector,
-                       OperatorProblem& problem) {
+Value operators::multiply_vectors(const Value& left_vector, const Value& right_vector,
+                                  OperatorProblem& problem) {
   const Row left = left_vector.elements(), right = right_vector.elements();
   if (left.empty() || right.empty())
     return fail(problem, "Multiplication is undefined on empty vectors");

@@ -1,8 +1,9 @@
-// Lets long work within one instruction notice that the evaluation is to stop.
+// The thread of an evaluation: its deep stack, and how long work in it notices that it is to stop.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <stop_token>
 
 namespace language {
@@ -32,5 +33,10 @@ class WorkWatch {
   WorkWatch(const WorkWatch&) = delete;
   WorkWatch& operator=(const WorkWatch&) = delete;
 };
+
+/// Calls `work` on a stack that holds some 20,000 nested symbols of a design, whatever the stack
+/// of the caller; within another such call on that call's. Returns when it has ended, and throws
+/// what it throws.
+void with_deep_stack(const std::function<void()>& work);
 
 }  // namespace language

@@ -1,8 +1,10 @@
-#include "base/with_deep_stack.hpp"
+#include "base/evaluation_thread.hpp"
 
 #include <pthread.h>
 
 #include <exception>
+
+#include "language/stopped.hpp"
 
 namespace language {
 
@@ -28,6 +30,14 @@ void* run(void* argument) {
 }
 
 }  // namespace
+
+constinit thread_local WorkMeter work_meter;
+
+void look_whether_to_stop() {
+  constexpr int64_t kUnitsBetweenLooks = int64_t{1} << 18;
+  work_meter.left = kUnitsBetweenLooks;
+  if (work_meter.stop && work_meter.stop->stop_requested()) throw Stopped();
+}
 
 void with_deep_stack(const std::function<void()>& work) {
   if (has_deep_stack) return work();
