@@ -101,6 +101,16 @@ TRACE: called by 'assert' in file design.scad, line 5
 )");
 }
 
+TEST(Functions, OperatorsOfNumbers) {
+  const Evaluated result = evaluated(R"(echo(1+2, 1-2, 2*3, 1/4, 2^-1, -7%3, 7%-3, -7.5%2, -(3));
+nan = 0 / 0;
+echo(1<2, 2<=2, 1>2, 2>=2, nan<=nan, nan>=nan, nan==nan, nan!=nan, 0==-0);
+)");
+  EXPECT_EQ(result.messages, R"(ECHO: 3, -1, 6, 0.25, 0.5, -1, 1, -1.5, -3
+ECHO: true, true, false, true, false, false, false, true, true
+)");
+}
+
 TEST(Functions, LoopsInAVectorAppendBehindWhatIsThere) {
   const Evaluated result = evaluated(R"(echo([0, for (i = [1 : 2]) i, for (i = "ab") let (j = i) j,
   for (i = [0 : 1], j = [0 : 2]) i * 3 + j, for (i = []) i, 7]);

@@ -9,6 +9,7 @@
 namespace language {
 namespace {
 
+using namespace operators;
 using Operator = Value (*)(const Value&, const Value&, OperatorProblem&);
 
 Value list(std::initializer_list<Value> elements) {
@@ -28,10 +29,7 @@ std::string result(Operator operation, const Value& left, const Value& right) {
 
 const Value kNan = 0.0 / 0.0;
 
-TEST(Operators, WorkOnNumbersAndVectors) {
-  EXPECT_EQ(result(add, 1, 2), "3");
-  EXPECT_EQ(result(power, 2, -1), "0.5");
-  EXPECT_EQ(result(modulo, -7, 3), "-1");
+TEST(Operators, WorkOnVectors) {
   EXPECT_EQ(result(add, list({1, text("b")}), list({1, 2, 3})), "[2, undef]");
   EXPECT_EQ(result(subtract, list({list({1}), 2}), list({list({3}), 5})), "[[-2], -3]");
   EXPECT_EQ(result(multiply, 2, list({1, list({2, text("a")})})), "[2, [4, undef]]");
@@ -59,7 +57,6 @@ TEST(Operators, WorkOnBits) {
     std::string shown = echo_text(operators::complement(operand, problem));
     return problem.text.empty() ? shown : shown + " | " + problem.text;
   };
-  using namespace operators;
   const double infinity = 1.0 / 0.0, too_large = 1e30;
   EXPECT_EQ(result(bit_and, 12, 5), "4");
   EXPECT_EQ(result(bit_or, 12, 5), "13");
@@ -139,7 +136,6 @@ TEST(Operators, Compare) {
   EXPECT_EQ(result(less, list({kNan, 1}), list({kNan, 2})), "true");
   EXPECT_EQ(result(less_equal, list({kNan}), list({kNan})), "true");
   EXPECT_EQ(result(greater_equal, list({kNan}), list({1})), "true");
-  EXPECT_EQ(result(less_equal, kNan, kNan), "false");
   EXPECT_EQ(result(less, make_range(1, 1, 0), make_range(0, 1, 2)), "true");
 }
 

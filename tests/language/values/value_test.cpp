@@ -14,6 +14,8 @@
 namespace language {
 namespace {
 
+using namespace operators;
+
 constexpr int kDeep = 1'000'000;
 constexpr int kQuiteDeep = 100'000;
 

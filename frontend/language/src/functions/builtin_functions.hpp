@@ -87,9 +87,6 @@ struct BuiltinFunction {
 /// name.
 std::span<const BuiltinFunction> builtin_functions();
 
-/// Returns the function of that name, or null.
-const BuiltinFunction* find_builtin_function(std::string_view name);
-
 }  // namespace language
 
 namespace language::functions {

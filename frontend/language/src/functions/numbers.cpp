@@ -31,8 +31,9 @@ bool are_all_numbers(std::span<const Value> values) {
 
 // Returns whether an element comes before another; those that cannot be compared do not.
 bool is_before(const Value& left, const Value& right) {
+  if (are_numbers(left, right)) return left.number() < right.number();
   OperatorProblem ignored;
-  return less(left, right, ignored).is_true();
+  return operators::less(left, right, ignored).is_true();
 }
 
 // Calls `select` with what min() and max() choose from: numbers, or the elements of one vector.

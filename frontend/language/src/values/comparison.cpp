@@ -150,7 +150,9 @@ Value greater_equal(const Value& left, const Value& right, OperatorProblem& prob
   return compared(order(left, ">=", right, problem), false, true, true);
 }
 
-bool equal(const Value& left, const Value& right) {
+}  // namespace operators
+
+bool are_equal(const Value& left, const Value& right) {
   if (!left.is_vector() || !right.is_vector()) return are_leaves_equal(left, right);
   LevelStack<Pair> pairs;
   pairs.push(left, right);
@@ -172,5 +174,4 @@ bool equal(const Value& left, const Value& right) {
   return true;
 }
 
-}  // namespace operators
 }  // namespace language

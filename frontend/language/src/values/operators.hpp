@@ -1,8 +1,6 @@
-// OpenSCAD's operators (LANGUAGE.md, "Values"). Numbers are computed with inline, all else by a
-// call; no text is made unless something is wrong.
+// OpenSCAD's operators (LANGUAGE.md, "Values"). No text is made unless something is wrong.
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -28,6 +26,7 @@ std::string undefined_operation(const Value& left, std::string_view sign, const 
 /// type have no order.
 std::string operation_undefined(const Value& left, std::string_view sign, const Value& right);
 
+/// The evaluator computes with numbers alone itself: these are for all other values.
 namespace operators {
 Value add(const Value& left, const Value& right, OperatorProblem& problem);
 Value subtract(const Value& left, const Value& right, OperatorProblem& problem);
@@ -45,72 +44,17 @@ Value less(const Value& left, const Value& right, OperatorProblem& problem);
 Value less_equal(const Value& left, const Value& right, OperatorProblem& problem);
 Value greater(const Value& left, const Value& right, OperatorProblem& problem);
 Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem);
-bool equal(const Value& left, const Value& right);
 Value index(const Value& container, const Value& index);
 /// Returns left * right of two vectors: a dot product, or a product with a matrix, as their first
 /// elements say.
 Value multiply_vectors(const Value& left, const Value& right, OperatorProblem& problem);
 }  // namespace operators
 
-inline Value add(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return left.number() + right.number();
-  return operators::add(left, right, problem);
-}
-
-inline Value subtract(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return left.number() - right.number();
-  return operators::subtract(left, right, problem);
-}
-
-inline Value multiply(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return left.number() * right.number();
-  return operators::multiply(left, right, problem);
-}
-
-inline Value divide(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return left.number() / right.number();
-  return operators::divide(left, right, problem);
-}
-
-inline Value modulo(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return std::fmod(left.number(), right.number());
-  return operators::modulo(left, right, problem);
-}
-
-inline Value power(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return std::pow(left.number(), right.number());
-  return operators::power(left, right, problem);
-}
-
-inline Value negate(const Value& operand, OperatorProblem& problem) {
-  if (operand.is_number()) return -operand.number();
-  return operators::negate(operand, problem);
-}
-
-inline Value less(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return Value::boolean(left.number() < right.number());
-  return operators::less(left, right, problem);
-}
-
-inline Value less_equal(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return Value::boolean(left.number() <= right.number());
-  return operators::less_equal(left, right, problem);
-}
-
-inline Value greater(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return Value::boolean(left.number() > right.number());
-  return operators::greater(left, right, problem);
-}
-
-inline Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem) {
-  if (are_numbers(left, right)) return Value::boolean(left.number() >= right.number());
-  return operators::greater_equal(left, right, problem);
-}
-
+bool are_equal(const Value& left, const Value& right);  // that are not both numbers
 /// Returns whether two values are equal, which is defined for all.
 inline bool equal(const Value& left, const Value& right) {
   if (are_numbers(left, right)) return left.number() == right.number();
-  return operators::equal(left, right);
+  return are_equal(left, right);
 }
 
 /// Returns container[index], or undef.
