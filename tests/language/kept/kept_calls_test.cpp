@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "evaluation/cache_parts.hpp"
+#include "evaluation/evaluation_cache.hpp"
 #include "kept/shown.hpp"
 
 namespace language {

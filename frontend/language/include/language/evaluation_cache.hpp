@@ -33,7 +33,7 @@ class EvaluationCache {
   EvaluationCache& operator=(const EvaluationCache&) = delete;
   ~EvaluationCache();
 
-  struct Parts;  // evaluation/cache_parts.hpp
+  struct Parts;  // evaluation/evaluation_cache.hpp
   Parts& parts() { return *parts_; }
 
  private:

@@ -5,8 +5,7 @@
 #include <unordered_set>
 
 #include "base/evaluation_thread.hpp"
-#include "evaluation/builtin_shapes.hpp"
-#include "evaluation/cache_parts.hpp"
+#include "evaluation/evaluation_cache.hpp"
 #include "evaluation/machine.hpp"
 #include "language/make.hpp"
 #include "syntax/parameter_set.hpp"
@@ -20,6 +19,35 @@ namespace {
 // Bytes of the messages that an evaluation may say: they are kept until the output is written, and
 // a recursion can say more than any memory holds.
 constexpr size_t kMostMessageBytes = size_t{64} << 20;
+
+ModuleShape shape_of(const BuiltinModule& module, uint32_t index, NameTable& names) {
+  ModuleShape shape{};
+  shape.index = index;
+  for (const auto& list : {module.positional, module.named_only})
+    for (const std::string_view name : list) shape.parameters.push_back(names.intern(name));
+  shape.positional = module.positional.size();
+  shape.takes_children = module.children == ChildRule::kTakes;
+  shape.refuses_children = module.children == ChildRule::kRefuses;
+  shape.successor = module.successor;
+  shape.wants_first = module.wants_first != nullptr;
+  return shape;
+}
+
+Builtins builtin_shapes(NameTable& names) {
+  Builtins builtins;
+  uint32_t index = 0;
+  for (const BuiltinFunction& function : builtin_functions()) {
+    builtins.functions[names.intern(function.name)] = {index++, function.least_arguments,
+                                                       function.most_arguments,
+                                                       function.next_argument != nullptr};
+  }
+  index = 0;
+  for (const BuiltinModule& module : builtin_modules()) {
+    builtins.modules[names.intern(module.name)] = shape_of(module, index, names);
+    ++index;
+  }
+  return builtins;
+}
 
 // One evaluation, from text to nodes.
 class Session {
@@ -199,8 +227,8 @@ void Session::evaluate_program() {
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   preset_names(machine);
   if (kept_) {
-    machine.use_kept(kept_->tops);
-    machine.use_calls(kept_->calls);
+    machine.top_levels().use(kept_->tops);
+    machine.call_keeper().use(kept_->calls);
   }
   try {
     run_program(machine);
@@ -214,8 +242,8 @@ void Session::evaluate_program() {
   append_new(result_.files_read, files.files_read());
   append_new(result_.lookups, files.lookups());
   if (!kept_) return;
-  machine.save_units(kept_->tops);
-  if (result_.outcome == Outcome::kDone) calls_ = machine.take_calls();
+  machine.top_levels().save(kept_->tops);
+  if (result_.outcome == Outcome::kDone) calls_ = machine.call_keeper().take();
 }
 
 void Session::list_sources() {

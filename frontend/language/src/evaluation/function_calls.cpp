@@ -1,187 +1,270 @@
-// Function calls by name, and the frames of all calls.
-#include "evaluation/machine.hpp"
-#include "evaluation/operation_limit.hpp"
-#include "syntax/syntax.hpp"
-#include "values/object_memory.hpp"
+#include "evaluation/function_calls.hpp"
+
+#include <string>
+
+#include "language/make.hpp"
 
 namespace language {
+
 namespace {
 
-constexpr uint32_t kTailLimit = 1000000;
-// A recursion that goes on for longer than these calls, and makes more than these bytes of values
-// that last, is endless: it would only end when it has taken all memory. OpenSCAD allows some 8,600
-// nested calls, so that each of them would have to keep some thousand numbers.
-constexpr size_t kFewCalls = 3000;
-constexpr int64_t kMostNestedBytes = int64_t{96} << 20, kMostRoundsBytes = int64_t{256} << 20;
+// Slots, counted from the callee: the number of arguments that are done, the trail's mark, the
+// arguments in their order. The evaluated defaults follow.
+constexpr uint32_t kDone = 1, kMark = 2, kArguments = 3;
 
 }  // namespace
 
-// Takes over a reference to `scope`.
-void Machine::push_frame(const Code& code, uint32_t base, HeapScope* scope, FrameKind kind,
-                         uint32_t activation) {
-  count_step();
-  stack_.reserve(base + code.deepest + 1);  // before the frame, so that errors have their place
-  if (!frames_.empty()) {
-    frames_.back().next = next_;
-    frames_.back().scope = scope_;
-  }
-  frames_.push_back({&code, 0, base, scope, dynamic_.trail(), activation, object_memory.used});
-  frames_.back().kind = kind;
-  if (code.noted_by != record_ && record_ != 0) note_code(code);
-  code_ = code.instructions.data();
-  next_ = 0;
-  base_ = base;
-  scope_ = scope;
-  if (code.unit != unit_) set_unit(code.unit);
-}
-
-void Machine::pop_frame() {
-  HeapScopes::release(scope_);
-  frames_.pop_back();
-  if (frames_.empty()) {
-    scope_ = nullptr;
-    return;
-  }
-  const Frame& frame = frames_.back();
-  code_ = frame.code->instructions.data();
-  next_ = frame.next;
-  base_ = frame.base;
-  scope_ = frame.scope;
-  if (frame.code->unit != unit_) set_unit(frame.code->unit);
-}
-
-uint32_t Machine::push_parameters(const Callable& callable) {
-  const uint32_t base = stack_.size();
-  stack_.reserve(base + static_cast<uint32_t>(callable.initial.size()));
-  for (const Value& value : callable.initial) stack_.push_copy(value);
-  return base;
-}
-
-void Machine::begin_call(const CallSite& site) {
+void FunctionCalls::begin(const CallSite& site) {
   Callable& callable =
       site.module ? static_cast<Callable&>(*site.module) : static_cast<Callable&>(*site.function);
   const uint32_t base = push_parameters(callable);
   if (!callable.has_default_code) return;
-  HeapScope* const scope = site.is_in_unit ? unit_scopes_.back() : scope_at(site.scope);
-  push_frame(compiler_.defaults_of(callable, site.module), base, HeapScopes::acquire(scope),
-             FrameKind::kDefaults, kNoActivation);
+  HeapScope* const scope = stack_.scope_around(site.is_in_unit, site.scope);
+  stack_.push(compiler_.defaults_of(callable, site.module), base, HeapScopes::acquire(scope),
+              FrameKind::kDefaults);
 }
 
-void Machine::return_defaults() {
-  const FrameKind kind = frames_.back().kind;
-  const uint32_t base = base_;
-  pop_frame();
-  if (kind == FrameKind::kDynamicDefaults) keep_defaults(base);
+void FunctionCalls::return_defaults() {
+  const FrameKind kind = stack_.frame().kind;
+  const uint32_t base = stack_.base();
+  stack_.pop();
+  if (kind != FrameKind::kDynamicDefaults) return;
+  ValueStack& values = stack_.values;
+  Value defaults = make_vector(values.size() - base);
+  for (uint32_t slot = base; slot < values.size(); ++slot)
+    append_element(defaults, std::move(values[slot]));
+  values.drop_to(base);
+  values.top() = std::move(defaults);
 }
 
-// Returns whether the calls nest too deeply for another one. What the inner half of them has made
-// is the recursion's, not that of the design around it.
-bool Machine::nests_too_deeply() const {
-  const size_t depth = frames_.size();
-  if (depth >= kDepthLimit) return true;
-  return depth > kFewCalls && object_memory.used - frames_[depth / 2].memory > kMostNestedBytes;
+uint32_t FunctionCalls::push_parameters(const Callable& callable) {
+  ValueStack& values = stack_.values;
+  const uint32_t base = values.size();
+  values.reserve(base + static_cast<uint32_t>(callable.initial.size()));
+  for (const Value& value : callable.initial) values.push_copy(value);
+  return base;
 }
 
-void Machine::recursion_in_function(std::string_view name, Place place) {
-  fail("Recursion detected calling function '" + std::string(name) + "'", place);
-}
-
-void Machine::call_function(const CallSite& site) {
+void FunctionCalls::call(const CallSite& site) {
   FunctionEntry& function = *site.function;
-  if (nests_too_deeply()) recursion_in_function(compiler_.names().text(function.name), place());
-  HeapScope* const scope = take_scope(site);
+  if (stack_.nests_too_deeply())
+    stack_.fail_recursion("function", stack_.text_of(function.name), stack_.place());
+  HeapScope* const scope = stack_.take_scope_around(site.is_in_unit, site.scope);
   const Code& code = compiler_.code_of(function);
-  const uint32_t base = stack_.size() - site.slots;
-  push_frame(code, base, scope, FrameKind::kFunction, kNoActivation);
-  frames_.back().function = &function;
-  for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.push(Value::unset());
+  stack_.push(code, stack_.values.size() - site.slots, scope, FrameKind::kFunction);
+  stack_.frame().function = &function;
+  for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.values.push(Value::unset());
 }
 
-void Machine::return_value() {
-  Value value = stack_.pop();
-  stack_.drop_to(base_);
-  dynamic_.undo(frames_.back().trail);
-  pop_frame();
-  stack_.push(std::move(value));
+void FunctionCalls::return_value() {
+  Value value = stack_.values.pop();
+  stack_.leave();
+  stack_.values.push(std::move(value));
 }
 
-void Machine::tail_jump(uint32_t slots, uint32_t target) {
-  count_step();
-  Frame& frame = frames_.back();
-  const bool grows =
-      ++frame.rounds > kFewCalls && object_memory.used - frame.memory > kMostRoundsBytes;
-  if (frame.rounds > kTailLimit || grows) {
+void FunctionCalls::tail_jump(uint32_t slots, uint32_t target) {
+  if (stack_.loops_too_long()) {
+    const Frame& frame = stack_.frame();
     const bool is_named = frame.called_as == kNoName;
-    const Name name = is_named ? frame.function->name : frame.called_as;
-    recursion_in_function(compiler_.names().text(name),
+    stack_.fail_recursion("function",
+                          stack_.text_of(is_named ? frame.function->name : frame.called_as),
                           is_named ? frame.function->place : frame.call);
   }
-  stack_.drop_to(base_ + slots);
-  next_ = target;
+  stack_.values.drop_to(stack_.base() + slots);
+  stack_.jump(target);
 }
 
-void Machine::call_builtin(uint32_t index, uint32_t count) {
-  const BuiltinFunction& function = builtin_functions_[index];
-  functions_.module_names = module_names_;
-  const std::span<Value> arguments(stack_.end() - count, count);
-  if (!records_.empty()) note_builtin(function, arguments);
+void FunctionCalls::call_builtin(uint32_t index, uint32_t count) {
+  const BuiltinFunction& function = builtins_[index];
+  ValueStack& values = stack_.values;
+  const std::span<Value> arguments(values.end() - count, count);
+  stack_.recorder.note_builtin(function, arguments);
   const OperationLimit limit;
-  Value value = function.call({function.name, count, arguments, place(), functions_});
-  stack_.drop_to(stack_.size() - count);
-  stack_.push(std::move(value));
+  Value value = function.call({function.name, count, arguments, stack_.place(), environment_});
+  values.drop_to(values.size() - count);
+  values.push(std::move(value));
 }
 
-void Machine::next_lazy(const LazyCall& site) {
-  const BuiltinFunction& function = builtin_functions_[site.builtin];
-  const uint32_t base = base_ + site.slot;
-  const auto count = static_cast<uint32_t>(stack_[base].number());
-  const std::span<Value> arguments(&stack_[base + 1], count);
-  if (!records_.empty()) note_builtin(function, arguments);
-  const FunctionCall call{function.name, site.written, arguments,
-                          place(),       functions_,   site.argument_names};
+void FunctionCalls::next_lazy(const LazyCall& site) {
+  const BuiltinFunction& function = builtins_[site.builtin];
+  const auto count = static_cast<uint32_t>(stack_.slot(site.slot).number());
+  const std::span<Value> arguments(&stack_.slot(site.slot + 1), count);
+  stack_.recorder.note_builtin(function, arguments);
+  const FunctionCall call{function.name,  site.written, arguments,
+                          stack_.place(), environment_, site.argument_names};
   const size_t next = count == site.room ? kNoArgument : function.next_argument(call);
-  if (next != kNoArgument) {
-    next_ = site.argument_code[next];
-    return;
-  }
-  functions_.module_names = module_names_;
+  if (next != kNoArgument) return stack_.jump(site.argument_code[next]);
   const OperationLimit limit;
   Value value = function.call(call);
-  stack_.drop_to(base);
-  stack_.push(std::move(value));
+  stack_.values.drop_to(stack_.base() + site.slot);
+  stack_.values.push(std::move(value));
 }
 
-void Machine::keep_lazy(const LazyCall& site) {
-  Value value = stack_.pop();
-  Value& count = stack_[base_ + site.slot];
+void FunctionCalls::keep_lazy(const LazyCall& site) {
+  Value value = stack_.values.pop();
+  Value& count = stack_.slot(site.slot);
   const auto number = static_cast<uint32_t>(count.number());
-  stack_[base_ + site.slot + 1 + number] = std::move(value);
+  stack_.slot(site.slot + 1 + number) = std::move(value);
   count = number + 1.0;
 }
 
-void Machine::warn_count(Name name) {
-  warn(std::string(compiler_.names().text(name)) + "() number of parameters does not match",
-       PathBase::kMainFile);
-  stack_.push(Value::undef());
-}
-
-void Machine::unknown_function(Name name) {
-  warn("Ignoring unknown function '" + std::string(compiler_.names().text(name)) + "'",
-       PathBase::kMainFile);
-  stack_.push(Value::undef());
-}
-
 // A call in tail position says them once in the whole run.
-void Machine::say_argument_warnings(uint32_t plan, bool once) {
-  const Code& code = *frames_.back().code;
+void FunctionCalls::say_argument_warnings(uint32_t plan, bool once) {
+  const Code& code = stack_.code();
   if (once) {
-    note_history();
+    stack_.recorder.note_history();
     if (code.said.empty()) code.said.resize(code.plans.size());
     if (code.said[plan]) return;
     code.said[plan] = true;
   }
   for (const ArgumentWarning& warning : code.plans[plan].warnings)
-    messages_.warn(warning.text, warning.place, PathBase::kUnit);
+    environment_.messages.warn(warning.text, warning.place, PathBase::kUnit);
+}
+
+void FunctionCalls::warn_count(Name name) {
+  stack_.warn(stack_.text_of(name) + "() number of parameters does not match", PathBase::kMainFile);
+  stack_.values.push(Value::undef());
+}
+
+void FunctionCalls::unknown_function(Name name) {
+  stack_.warn("Ignoring unknown function '" + stack_.text_of(name) + "'", PathBase::kMainFile);
+  stack_.values.push(Value::undef());
+}
+
+FunctionEntry* DynamicCalls::function_of(const DynamicCall& site) {
+  const Value& callee = stack_.slot(site.slot);
+  return callee.is_function() ? &closure_of(callee).function : site.function;
+}
+
+HeapScope* DynamicCalls::scope_of(const DynamicCall& site) {
+  const Value& callee = stack_.slot(site.slot);
+  return callee.is_function() ? closure_of(callee).scope
+                              : stack_.scope_around(site.is_in_unit, site.function_scope);
+}
+
+const ArgumentPlan& DynamicCalls::plan_of(const DynamicCall& site, FunctionEntry& function) {
+  const auto found = site.plans.find(&function);
+  if (found != site.plans.end()) return found->second;
+  return site.plans.emplace(&function, compiler_.plan(function, site.arguments, stack_.place()))
+      .first->second;
+}
+
+// Says why the value on top cannot be called, if so.
+bool DynamicCalls::refuse_callee(const DynamicCall& site) {
+  const Value& callee = stack_.values.top();
+  const auto refuse = [&](std::string text, PathBase base) {
+    stack_.warn(std::move(text), base);
+    return true;
+  };
+  if (callee.is_function()) {
+    if (site.name == kNoName || !is_dynamic_name(site.name, compiler_.names())) return false;
+    return refuse("Can't call function on dynamically scoped variable", PathBase::kUnit);
+  }
+  if (site.name == kNoName)
+    return refuse("Can't call function on " + std::string(type_name(callee.type())),
+                  PathBase::kUnit);
+  if (site.function) return false;
+  if (!site.builtin)
+    return refuse("Ignoring unknown function '" + stack_.text_of(site.name) + "'",
+                  PathBase::kMainFile);
+  const BuiltinFunction& builtin = builtin_functions()[*site.builtin];
+  const size_t count = site.arguments.size();
+  if (count >= builtin.least_arguments && count <= builtin.most_arguments) return false;
+  return refuse(std::string(builtin.name) + "() number of parameters does not match",
+                PathBase::kMainFile);
+}
+
+void DynamicCalls::prepare(const DynamicCall& site) {
+  ValueStack& values = stack_.values;
+  if (refuse_callee(site)) {
+    values.top() = Value::undef();
+    return stack_.jump(site.end);
+  }
+  values.push(0.0);
+  values.push(static_cast<double>(stack_.dynamic.trail()));
+  for (size_t slot = 0; slot <= site.arguments.size(); ++slot) values.push(Value::unset());
+  FunctionEntry* const function = function_of(site);
+  if (!function) return;
+  compiler_.prepare(*function);
+  if (!function->has_default_code) return;
+  HeapScope* const scope = HeapScopes::acquire(scope_of(site));
+  const Code& code = compiler_.defaults_of(*function, false);
+  const uint32_t base = functions_.push_parameters(*function);
+  stack_.push(code, base, scope, FrameKind::kDynamicDefaults);
+}
+
+void DynamicCalls::next_argument(const DynamicCall& site) {
+  Value& state = stack_.slot(site.slot + kDone);
+  const auto done = static_cast<uint32_t>(state.number());
+  uint32_t argument = done;
+  if (FunctionEntry* const function = function_of(site)) {
+    const ArgumentPlan& plan = plan_of(site, *function);
+    if (done == 0) {
+      for (const ArgumentWarning& warning : plan.warnings)
+        stack_.messages().warn(warning.text, warning.place, PathBase::kUnit);
+    }
+    if (done == plan.steps.size()) return;
+    argument = plan.steps[done].argument;
+  } else if (done == site.arguments.size()) {
+    return;
+  }
+  state = done + 1.0;
+  stack_.jump(site.argument_code[argument]);
+}
+
+void DynamicCalls::call(const DynamicCall& site) {
+  if (FunctionEntry* const function = function_of(site)) {
+    call_function(site, *function);
+  } else {
+    call_builtin(site);
+  }
+}
+
+void DynamicCalls::call_builtin(const DynamicCall& site) {
+  ValueStack& values = stack_.values;
+  values.drop();
+  functions_.call_builtin(*site.builtin, static_cast<uint32_t>(site.arguments.size()));
+  Value value = values.pop();
+  stack_.dynamic.undo(static_cast<uint32_t>(stack_.slot(site.slot + kMark).number()));
+  values.drop_to(stack_.base() + site.slot);
+  values.push(std::move(value));
+}
+
+void DynamicCalls::call_function(const DynamicCall& site, FunctionEntry& function) {
+  const Place call = stack_.place();
+  if (stack_.nests_too_deeply()) {
+    stack_.fail_recursion(
+        "function", site.name == kNoName ? stack_.text_of(*site.callee) : stack_.text_of(site.name),
+        call);
+  }
+  ValueStack& values = stack_.values;
+  const uint32_t base = stack_.base() + site.slot;
+  const bool is_closure = values[base].is_function();
+  HeapScope* const scope = is_closure
+                               ? HeapScopes::acquire(closure_of(values[base]).scope)
+                               : stack_.take_scope_around(site.is_in_unit, site.function_scope);
+  const Code& code = compiler_.code_of(function);  // which may find more slots
+  const Value& defaults = values.top();
+  if (defaults.is_set()) {
+    parameters_.assign(defaults.elements().begin(), defaults.elements().end());
+  } else {
+    parameters_ = function.initial;
+  }
+  parameters_.resize(code.slots, Value::unset());
+  for (const ArgumentPlan::Step& step : plan_of(site, function).steps) {
+    if (!step.target.is_dynamic)
+      parameters_[step.target.slot] = std::move(values[base + kArguments + step.argument]);
+  }
+  const auto mark = static_cast<uint32_t>(values[base + kMark].number());
+  values.drop_to(base);
+  values.reserve(base + static_cast<uint32_t>(parameters_.size()));
+  for (Value& parameter : parameters_) values.push(std::move(parameter));
+  stack_.push(code, base, scope, FrameKind::kFunction);
+  Frame& frame = stack_.frame();
+  frame.function = &function;
+  frame.trail = mark;
+  frame.call = call;
+  if (is_closure) frame.called_as = site.name;
 }
 
 }  // namespace language

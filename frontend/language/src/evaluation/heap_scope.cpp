@@ -3,9 +3,11 @@
 #include <memory>
 #include <new>
 
+#include "syntax/syntax.hpp"
 #include "values/object_memory.hpp"
 
 namespace language {
+
 namespace {
 
 size_t block_size(uint32_t size) { return sizeof(HeapScope) + size * sizeof(Value); }
@@ -45,6 +47,21 @@ void HeapScopes::clear() noexcept {
     std::destroy_n(scope->values(), scope->size);
     free_object(scope, block_size(scope->size));
   }
+}
+
+void Closure::append_text(std::string& out) const {
+  append_expression_text(out, *function.literal, names);
+}
+
+void leave_scope(HeapScope* scope) noexcept {
+  uint32_t own = 1;
+  for (uint32_t slot = 0; slot < scope->size; ++slot) {
+    const Value& value = scope->values()[slot];
+    if (value.is_function() && value.is_unique() && closure_of(value).scope == scope) ++own;
+  }
+  if (own > 1 && own == scope->references)
+    for (uint32_t slot = 0; slot < scope->size; ++slot) scope->values()[slot] = Value::unset();
+  HeapScopes::release(scope);
 }
 
 }  // namespace language

@@ -1,119 +1,266 @@
-// Nodes, and the calls of modules.
-#include "evaluation/machine.hpp"
+#include "evaluation/modules.hpp"
+
+#include <limits>
+#include <string>
+
+#include "language/make.hpp"
+#include "values/range.hpp"
+#include "values/value_text.hpp"
 
 namespace language {
 
-void Machine::begin_node(NodeKind kind, uint8_t modifiers) {
-  open_nodes_.push_back(tree_.open(kind, modifiers, place()));
+namespace {
+
+constexpr uint32_t kRangeLimit = 10000;  // of a range of this count and more nothing is selected
+
+constexpr size_t kWorkOfMessage = 128;  // about a child that is not there, which takes some 500 ns
+
+// Cuts to a whole number as C does on this processor: the least one for all that does not fit.
+int whole(double number) {
+  const bool fits = number > -2147483649.0 && number < 2147483648.0;
+  return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
 }
 
-void Machine::end_node(bool drop_if_empty) {
+}  // namespace
+
+ModuleCalls::ModuleCalls(Compiler& compiler, ModuleEnvironment& environment,
+                         std::vector<std::string_view>& names, NodeTree& tree, CallStack& stack,
+                         CallKeeper& keeper)
+    : compiler_(compiler),
+      environment_(environment),
+      names_(names),
+      tree_(tree),
+      stack_(stack),
+      keeper_(keeper),
+      fragments_number_(compiler.names().find("$fn")),
+      fragments_angle_(compiler.names().find("$fa")),
+      fragments_size_(compiler.names().find("$fs")),
+      parent_modules_(compiler.names().find("$parent_modules")) {}
+
+void ModuleCalls::begin_node(NodeKind kind, uint8_t modifiers) {
+  open_nodes_.push_back(tree_.open(kind, modifiers, stack_.place()));
+}
+
+void ModuleCalls::end_node(bool drop_if_empty) {
   const uint32_t node = open_nodes_.back();
   open_nodes_.pop_back();
   tree_.close(node);
   if (drop_if_empty && tree_.nodes[node].end == node + 1) tree_.remove(node);
 }
 
-BuiltinCall Machine::builtin_call(const NodeSite& site, bool has_first) {
+BuiltinCall ModuleCalls::builtin_call(const NodeSite& site, bool has_first) {
+  ValueStack& values = stack_.values;
   const uint32_t above = has_first ? 1 : 0;
-  const std::span<const Value> parameters(stack_.end() - above - site.parameters, site.parameters);
-  return {parameters,
-          has_first ? stack_.top() : Value::unset(),
+  return {{values.end() - above - site.parameters, site.parameters},
+          has_first ? values.top() : Value::unset(),
           dynamic_value(fragments_number_),
           dynamic_value(fragments_angle_),
           dynamic_value(fragments_size_),
-          place(),
-          modules_};
+          stack_.place(),
+          environment_};
 }
 
-bool Machine::wants_first(const NodeSite& site) {
-  return builtin_modules_[site.module].wants_first(builtin_call(site, false));
+bool ModuleCalls::wants_first(const NodeSite& site) {
+  return builtins_[site.module].wants_first(builtin_call(site, false));
 }
 
-Value Machine::dynamic_value(Name name) {
-  if (!records_.empty()) note_read(name);
-  const Value& value = dynamic_[name];
+Value ModuleCalls::dynamic_value(Name name) {
+  stack_.recorder.note_read(name);
+  const Value& value = stack_.dynamic[name];
   return value.is_set() ? value : Value::undef();
 }
 
-void Machine::make_node(const NodeSite& site, uint32_t no_children, bool takes_children) {
-  count_step();
+void ModuleCalls::make_node(const NodeSite& site, uint32_t no_children, bool takes_children) {
+  stack_.steps.count();
   begin_node(NodeKind::kGroup, site.modifiers);
-  const Made made = builtin_modules_[site.module].make(builtin_call(site, true), tree_);
-  stack_.drop_to(stack_.size() - site.parameters - 1);
+  const Made made = builtins_[site.module].make(builtin_call(site, true), tree_);
+  stack_.values.drop_to(stack_.values.size() - site.parameters - 1);
   if (made == Made::kNode && takes_children) return;
-  next_ = no_children;
+  stack_.jump(no_children);
   end_node(false);
   if (made == Made::kNothing) tree_.remove(tree_.size() - 1);
 }
 
-void Machine::refuse_children(const NodeSite& site) {
-  warn("module " + std::string(site.call_name) + "() does not support child modules",
-       PathBase::kMainFile);
-}
-
-void Machine::say_successor(const NodeSite& site) {
-  messages_.say(MessageGroup::kDeprecated,
-                "The " + std::string(site.call_name) +
-                    "() module will be removed in future releases. Use " +
-                    std::string(site.successor) + " instead.",
-                place(), PathBase::kMainFile);
-}
-
-void Machine::unknown_module(Name name) {
-  warn("Ignoring unknown module '" + std::string(compiler_.names().text(name)) + "'",
-       PathBase::kMainFile);
-}
-
-void Machine::name_module(Name name) {
-  module_names_.push_back(compiler_.names().text(name));
+void ModuleCalls::add_name(Name name) {
+  names_.push_back(compiler_.names().text(name));
   if (parent_modules_ != kNoName)
-    dynamic_.bind(parent_modules_, static_cast<double>(module_names_.size()));
+    stack_.dynamic.bind(parent_modules_, static_cast<double>(names_.size()));
 }
 
-void Machine::call_module(const CallSite& site) {
+void ModuleCalls::call(const CallSite& site) {
   ModuleEntry& module = *site.module;
-  if (nests_too_deeply()) {
-    fail("Recursion detected calling module '" + std::string(compiler_.names().text(module.name)) +
-             "'",
-         module.place);
-  }
+  if (stack_.nests_too_deeply())
+    stack_.fail_recursion("module", stack_.text_of(module.name), module.place);
   HeapScope* block_scope = nullptr;
   if (site.block) {
     block_scope = block_scopes_.back();
     block_scopes_.pop_back();
   }
-  HeapScope* const scope = take_scope(site);
+  HeapScope* const scope = stack_.take_scope_around(site.is_in_unit, site.scope);
   begin_node(NodeKind::kGroup, site.modifiers);
   tree_.nodes[open_nodes_.back()].is_module_call = true;
-  if (keeps_calls_ && is_kept(site, scope) && begin_kept_call(site)) {
+  const uint32_t base = stack_.values.size() - site.slots;
+  if (keeper_.begin(site, scope)) {
+    stack_.values.drop_to(base);
+    names_.pop_back();
+    end_node(false);
     HeapScopes::release(scope);
     return;
   }
-  activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
+  activations_.push_back({&module, site.block, block_scope, stack_.frame().activation});
   const Code& code = compiler_.code_of(module);
-  const uint32_t base = stack_.size() - site.slots;
-  push_frame(code, base, scope, FrameKind::kModule, static_cast<uint32_t>(activations_.size() - 1));
-  for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.push(Value::unset());
+  stack_.push(code, base, scope, FrameKind::kModule,
+              static_cast<uint32_t>(activations_.size() - 1));
+  for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.values.push(Value::unset());
 }
 
-void Machine::return_module() {
-  dynamic_.undo(frames_.back().trail);
-  if (!records_.empty() && records_.back().frames == frames_.size()) end_kept_call();
-  stack_.drop_to(base_);
+void ModuleCalls::return_from_call() {
+  stack_.dynamic.undo(stack_.frame().trail);
+  keeper_.end(*activations_.back().module);
   HeapScopes::release(activations_.back().block_scope);
   activations_.pop_back();
-  module_names_.pop_back();
-  pop_frame();
+  names_.pop_back();
+  stack_.leave();
   end_node(false);
 }
 
-void Machine::parameter_literal(Name parameter, Name module) {
-  const Value value = stack_.pop();
-  if (!value.is_set()) return;
-  warn("Module " + std::string(compiler_.names().text(module)) + ": Parameter " +
-           std::string(compiler_.names().text(parameter)) + " is overwritten with a literal",
-       PathBase::kUnit);
+const Activation* ModuleCalls::activation() const {
+  const uint32_t number = stack_.frame().activation;
+  return number == kNoActivation ? nullptr : &activations_[number];
+}
+
+void ModuleCalls::refuse_children(const NodeSite& site) {
+  stack_.warn("module " + std::string(site.call_name) + "() does not support child modules",
+              PathBase::kMainFile);
+}
+
+void ModuleCalls::say_successor(const NodeSite& site) {
+  environment_.messages.say(MessageGroup::kDeprecated,
+                            "The " + std::string(site.call_name) +
+                                "() module will be removed in future releases. Use " +
+                                std::string(site.successor) + " instead.",
+                            stack_.place(), PathBase::kMainFile);
+}
+
+void ModuleCalls::unknown_module(Name name) {
+  stack_.warn("Ignoring unknown module '" + stack_.text_of(name) + "'", PathBase::kMainFile);
+}
+
+void ModuleCalls::pop_overwritten(Name parameter, Name module) {
+  if (!stack_.values.pop().is_set()) return;
+  stack_.warn("Module " + stack_.text_of(module) + ": Parameter " + stack_.text_of(parameter) +
+                  " is overwritten with a literal",
+              PathBase::kUnit);
+}
+
+uint32_t Children::count() const {
+  const Activation* const module = modules_.activation();
+  return module && module->block ? static_cast<uint32_t>(module->block->calls.size()) : 0;
+}
+
+void Children::say_child_is_deprecated() {
+  stack_.messages().say(MessageGroup::kDeprecated,
+                        "child() will be removed in future releases. Use children() instead.");
+}
+
+// Children run where they are written: in the scope and among the children of their call.
+void Children::run(FrameKind kind, uint32_t child) {
+  const Activation& module = *modules_.activation();
+  if (stack_.nests_too_deeply()) stack_.fail_recursion("module", "children", stack_.place());
+  const Code& code = compiler_.code_of(*module.block);
+  stack_.push(code, stack_.values.size(), HeapScopes::acquire(module.block_scope), kind,
+              module.block_activation);
+  stack_.jump(code.entries[child]);
+}
+
+void Children::run_all(const NodeSite& site) {
+  modules_.begin_node(site);
+  if (count()) run(FrameKind::kBlock, 0);
+}
+
+bool Children::end_child(bool is_last) {
+  if (stack_.frame().kind == FrameKind::kBlock && !is_last) return false;
+  stack_.leave();
+  return true;
+}
+
+// Returns whether there is a child of that number, and says if not.
+bool Children::is_child_number(int number, bool is_child) {
+  if (number >= 0 && static_cast<uint32_t>(number) < count()) return true;
+  if (number >= 0 && !modules_.activation()) return false;
+  const std::string text = std::to_string(number);
+  const std::string what = is_child ? "hild index (" : "hildren index (";
+  const std::string problem =
+      number < 0 ? "Negative c" + what + text + ") not allowed"
+                 : "C" + what + text + ") out of bounds (" + std::to_string(count()) + " children)";
+  if (is_child) {
+    stack_.warn(problem, PathBase::kMainFile);
+  } else {
+    stack_.messages().say(MessageGroup::kWarning, problem);
+  }
+  return false;
+}
+
+bool Children::select(const NodeSite& site, bool is_child) {
+  Value selection = stack_.values.pop();
+  const bool is_number = selection.is_number() || is_child;
+  if (is_number) {
+    const int number = whole(selection.is_number() ? selection.number() : 0);
+    if (!is_child_number(number, is_child)) return false;
+    selection = make_vector(1);
+    append_element(selection, static_cast<double>(number));
+  } else if (!selection.is_vector() && !selection.is_range()) {
+    stack_.warn("Bad parameter type (" + echo_text(selection) +
+                    ") for children, only accept: empty, number, vector, range",
+                PathBase::kMainFile);
+    return false;
+  } else if (selection.is_range() && selection.range().count() >= kRangeLimit) {
+    stack_.warn("Bad range parameter for children: too many elements (" +
+                    std::to_string(selection.range().count()) + ")",
+                PathBase::kMainFile);
+    return false;
+  }
+  if (!is_number) modules_.begin_node(site);
+  stack_.values.push(std::move(selection));
+  stack_.values.push(0.0);
+  stack_.values.push(Value::boolean(!is_number));
+  return true;
+}
+
+// The number of the next child; unset after the last.
+Value Children::next_selected(uint32_t slot) {
+  const Value& selection = stack_.slot(slot);
+  const auto done = static_cast<uint32_t>(stack_.slot(slot + 1).number());
+  stack_.slot(slot + 1) = done + 1.0;
+  if (selection.is_range()) {
+    if (done >= selection.range().steps()) return Value::unset();
+    return selection.range().value(done);
+  }
+  return done < selection.elements().size() ? selection.elements()[done] : Value::unset();
+}
+
+void Children::run_next(uint32_t slot, uint32_t after) {
+  for (;;) {
+    count_work(kWorkOfMessage);
+    const Value index = next_selected(slot);
+    if (!index.is_set()) return stack_.jump(after);
+    if (!index.is_number()) {
+      std::string text;
+      append_str_text(text, index);
+      stack_.messages().say(MessageGroup::kWarning,
+                            "Bad parameter type (" + text +
+                                ") for children, only accept: empty, number, vector, range.");
+    } else if (is_child_number(whole(index.number()), false)) {
+      return run(FrameKind::kChild, static_cast<uint32_t>(index.number()));
+    }
+  }
+}
+
+void Children::end_selection() {
+  const bool is_group = stack_.values.pop().boolean();
+  stack_.values.drop();
+  stack_.values.drop();
+  if (is_group) modules_.end_node(false);
 }
 
 }  // namespace language

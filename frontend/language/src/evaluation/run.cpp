@@ -131,8 +131,10 @@ void push_next(Registers& now, const Instruction& step) {
 void Machine::run() {
   Registers now{};
   const auto enter = [&] {
-    const Code& code = *frames_.back().code;
-    now = {code_ + next_, stack_.end(), stack_.begin() + base_, code_, code.constants.data()};
+    const Code& code = stack_.code();
+    const Instruction* const first = stack_.instructions();
+    now = {first + stack_.next(), stack_.values.end(), stack_.values.begin() + stack_.base(), first,
+           code.constants.data()};
   };
   enter();
   for (;;) {
@@ -162,10 +164,10 @@ void Machine::run() {
         now.at += step.flag;
         continue;
       case Op::kScoped:
-        now.push(scope_at(step.a)->values()[step.b]);
+        now.push(stack_.scope_at(step.a)->values()[step.b]);
         continue;
       case Op::kTryScoped: {
-        const Value& value = scope_at(step.a)->values()[step.b];
+        const Value& value = stack_.scope_at(step.a)->values()[step.b];
         if (!value.is_set()) continue;
         now.push(value);
         now.at += step.flag;
@@ -248,15 +250,14 @@ void Machine::run() {
         if (append(now, step)) continue;
         break;
       case Op::kNextRound:
-        if (steps_ <= 1) break;  // which execute() counts
-        --steps_;
+        if (!stack_.steps.count_without_look()) break;
         push_next(now, step);
         continue;
       default:
         break;
     }
-    next_ = static_cast<uint32_t>(now.at - now.code);
-    stack_.set_end(now.top);
+    stack_.jump(static_cast<uint32_t>(now.at - now.code));
+    stack_.values.set_end(now.top);
     if (execute(step)) return;
     enter();
   }

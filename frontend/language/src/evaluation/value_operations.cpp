@@ -1,75 +1,111 @@
-// Operators, and what let, assert and echo say.
-#include <memory>
+#include "evaluation/value_operations.hpp"
 
-#include "evaluation/machine.hpp"
-#include "evaluation/operation_limit.hpp"
+#include <string>
+
+#include "base/utf8.hpp"
 #include "language/make.hpp"
-#include "syntax/syntax.hpp"
-#include "values/object_memory.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"
 
 namespace language {
+namespace {
 
-void Machine::say_problem(const OperatorProblem& problem) {
-  if (!problem.unplaced.empty()) messages_.say(MessageGroup::kWarning, problem.unplaced);
-  if (!problem.text.empty()) warn(problem.text, PathBase::kUnit);
+// Ranges of this count and more are refused.
+constexpr uint32_t kStatementLimit = 10000, kElementLimit = 1000000;
+constexpr double kRoundLimit = 1000000;  // of a C-style for
+
+// Bytes at the end that are cut off are no character; openscad never ends there.
+void append_characters(Value& vector, std::string_view text) {
+  for (; const size_t length = code_point_length(text); text.remove_prefix(length)) {
+    count_work();
+    append_element(vector, make_string(text.substr(0, length)));
+  }
 }
 
-void Machine::binary(Operator op) {
+}  // namespace
+
+void ValueOperations::push_dynamic(Name name, bool silently) {
+  const Value& value = stack_.dynamic[name];
+  stack_.recorder.note_read(name);
+  if (value.is_set()) return values_.push_copy(value);
+  if (!silently) return unknown_variable(name);
+  values_.push(Value::undef());
+}
+
+void ValueOperations::unknown_variable(Name name) {
+  const bool is_special = compiler_.names().is_dynamic(name);
+  const bool is_child_count = name == compiler_.known().child_count;
+  stack_.warn("Ignoring unknown variable '" + stack_.text_of(name) + "'",
+              is_special && !is_child_count ? PathBase::kUnit : PathBase::kMainFile);
+  values_.push(Value::undef());
+}
+
+// With the flag, a value that is not set leaves the variable as it is.
+void ValueOperations::store_scoped(const Instruction& step) {
+  Value value = values_.pop();
+  if (step.flag && !value.is_set()) return;
+  stack_.scope_at(step.a)->values()[step.b] = std::move(value);
+}
+
+void ValueOperations::say(const OperatorProblem& problem) {
+  if (!problem.unplaced.empty()) stack_.messages().say(MessageGroup::kWarning, problem.unplaced);
+  if (!problem.text.empty()) stack_.warn(problem.text, PathBase::kUnit);
+}
+
+void ValueOperations::binary(Value (*op)(const Value&, const Value&, OperatorProblem&)) {
   const OperationLimit limit;
-  const Value left = stack_.pop();
+  const Value left = values_.pop();
   OperatorProblem problem;
-  stack_.top() = op(left, stack_.top(), problem);
-  if (!problem.text.empty()) say_problem(problem);
+  values_.top() = op(left, values_.top(), problem);
+  if (!problem.text.empty()) say(problem);
 }
 
-void Machine::unary(Value (*op)(const Value&, OperatorProblem&)) {
+void ValueOperations::unary(Value (*op)(const Value&, OperatorProblem&)) {
   const OperationLimit limit;
   OperatorProblem problem;
-  stack_.top() = op(stack_.top(), problem);
-  if (!problem.text.empty()) say_problem(problem);
+  values_.top() = op(values_.top(), problem);
+  if (!problem.text.empty()) say(problem);
 }
 
-void Machine::make_range(uint16_t flags) {
+void ValueOperations::make_range(uint16_t flags) {
   if (!(flags & kHasStep)) {
-    const Value end = stack_.pop();
+    const Value end = values_.pop();
     RangeProblem problem;
-    stack_.top() = range_of(stack_.top(), end, problem);
+    values_.top() = range_of(values_.top(), end, problem);
     if (problem.is_reversed) {
-      messages_.say(MessageGroup::kDeprecated,
-                    "Using ranges of the form [begin:end] with begin value greater than the end "
-                    "value is deprecated",
-                    place(), PathBase::kUnit);
+      stack_.messages().say(
+          MessageGroup::kDeprecated,
+          "Using ranges of the form [begin:end] with begin value greater than the end "
+          "value is deprecated",
+          stack_.place(), PathBase::kUnit);
     }
     return;
   }
-  const Value step = stack_.pop(), end = stack_.pop();
-  const Value begin = stack_.pop();
-  stack_.push(range_of(begin, step, end));
-  if (!(flags & kChecksDirection) || !stack_.top().is_range()) return;
+  const Value step = values_.pop(), end = values_.pop();
+  const Value begin = values_.pop();
+  values_.push(range_of(begin, step, end));
+  if (!(flags & kChecksDirection) || !values_.top().is_range()) return;
   if (step.number() > 0 && end.number() < begin.number())
-    warn("begin is greater than the end, but step is positive", PathBase::kUnit);
+    stack_.warn("begin is greater than the end, but step is positive", PathBase::kUnit);
   if (step.number() < 0 && end.number() > begin.number())
-    warn("begin is smaller than the end, but step is negative", PathBase::kUnit);
+    stack_.warn("begin is smaller than the end, but step is negative", PathBase::kUnit);
 }
 
-void Machine::make_vector(uint32_t count) {
+void ValueOperations::make_vector(uint32_t count) {
   Value vector = language::make_vector(count);
   auto& object = static_cast<VectorObject&>(*vector.object());
-  stack_.pop_to(object.elements(), count);
+  values_.pop_to(object.elements(), count);
   object.take_appended(count);
-  stack_.push(std::move(vector));
+  values_.push(std::move(vector));
 }
 
-void Machine::make_closure(uint32_t index) {
-  for (Record& record : records_)
-    if (record.unit != kNoUnit) record.is_pure = false;  // it could not be kept
-  FunctionEntry& function = *frames_.back().code->functions[index];
-  stack_.push(Value::adopt(new Closure(function, scope_, compiler_.names())));
+void ValueOperations::make_closure(uint32_t index) {
+  stack_.recorder.note_closure();
+  FunctionEntry& function = *stack_.code().functions[index];
+  values_.push(Value::adopt(new Closure(function, stack_.scope(), compiler_.names())));
 }
 
-void Machine::echo(const EchoSite& site) {
+void ValueOperations::echo(const EchoSite& site) {
   std::string text;
   const auto count = static_cast<uint32_t>(site.names.size());
   for (uint32_t number = 0; number < count; ++number) {
@@ -78,15 +114,15 @@ void Machine::echo(const EchoSite& site) {
       text += compiler_.names().text(site.names[number]);
       text += " = ";
     }
-    append_echo_text(text, stack_.below(count - 1 - number));
+    append_echo_text(text, values_.below(count - 1 - number));
   }
-  stack_.drop_to(stack_.size() - count);
-  messages_.say(MessageGroup::kEcho, std::move(text));
+  values_.drop_to(values_.size() - count);
+  stack_.messages().say(MessageGroup::kEcho, std::move(text));
 }
 
-void Machine::assert_top(const AssertSite& site, bool has_message) {
-  const Value message = has_message ? stack_.pop() : Value::undef();
-  if (stack_.pop().is_true()) return;
+void ValueOperations::assert_top(const AssertSite& site, bool has_message) {
+  const Value message = has_message ? values_.pop() : Value::undef();
+  if (values_.pop().is_true()) return;
   std::string text = "Assertion";
   if (site.condition) {
     text += " '";
@@ -95,19 +131,98 @@ void Machine::assert_top(const AssertSite& site, bool has_message) {
   }
   text += " failed";
   if (has_message) text += ": " + echo_text(message);
-  fail(std::move(text), place());
+  stack_.fail(std::move(text), stack_.place());
 }
 
-void Machine::duplicate_let(Name name) {
-  warn("Ignoring duplicate variable assignment " + std::string(compiler_.names().text(name)) +
-           " = " + echo_text(stack_.top()),
-       PathBase::kUnit);
-  stack_.drop();
+void ValueOperations::duplicate_let(Name name) {
+  stack_.warn("Ignoring duplicate variable assignment " + stack_.text_of(name) + " = " +
+                  echo_text(values_.top()),
+              PathBase::kUnit);
+  values_.drop();
 }
 
-void Machine::unnamed_let() {
-  warn("Assignment without variable name " + echo_text(stack_.top()), PathBase::kUnit);
-  stack_.drop();
+void ValueOperations::unnamed_let() {
+  stack_.warn("Assignment without variable name " + echo_text(values_.top()), PathBase::kUnit);
+  values_.drop();
+}
+
+void ValueOperations::too_many(uint32_t count) {
+  stack_.warn(
+      "Bad range parameter in for statement: too many elements (" + std::to_string(count) + ")",
+      PathBase::kUnit);
+}
+
+void ValueOperations::begin_loop(uint16_t kind) {
+  Value& source = values_.top();
+  if (source.is_range()) {
+    const uint32_t count = source.range().count();
+    if (count >= (kind == kStatementLoop ? kStatementLimit : kElementLimit)) {
+      too_many(count);
+      source = language::make_vector();
+    }
+  } else if (source.is_undef()) {
+    source = language::make_vector();
+  } else if (source.is_string()) {
+    Value characters = language::make_vector();
+    append_characters(characters, source.text());
+    source = std::move(characters);
+  } else if (!source.is_vector()) {
+    Value single = language::make_vector(1);
+    append_element(single, std::move(source));
+    source = std::move(single);
+  }
+  const double rounds =
+      source.is_vector() ? static_cast<double>(source.elements().size()) : source.range().steps();
+  values_.push(0.0);
+  values_.push(rounds);
+}
+
+bool ValueOperations::next_round(uint32_t slot) {
+  stack_.steps.count();
+  const Value& source = stack_.slot(slot);
+  Value& done = stack_.slot(slot + 1);
+  if (!(done.number() < stack_.slot(slot + 2).number())) return false;
+  const auto number = static_cast<uint32_t>(done.number());
+  if (source.is_vector()) {
+    values_.push_copy(source.elements()[number]);
+  } else {
+    values_.push(source.range().value(number));
+  }
+  done = number + 1.0;
+  return true;
+}
+
+void ValueOperations::append_expanded(Value& vector, const Value& value) {
+  if (value.is_vector()) {
+    append_elements(vector, value.elements());
+  } else if (value.is_string()) {
+    append_characters(vector, value.text());
+  } else if (value.is_range()) {
+    const uint32_t count = value.range().count();
+    if (count >= kElementLimit) return too_many(count);
+    for (uint32_t number = 0; number < value.range().steps(); ++number)
+      append_element(vector, value.range().value(number));
+  } else if (!value.is_undef()) {
+    append_element(vector, value);
+  }
+}
+
+void ValueOperations::append_each(uint32_t slot) {
+  const Value value = values_.pop();
+  append_expanded(stack_.slot(slot), value);
+}
+
+void ValueOperations::append_each_of_all(uint32_t slot) {
+  const Value values = values_.pop();
+  for (const Value& value : values.elements()) append_expanded(stack_.slot(slot), value);
+}
+
+void ValueOperations::count_round(uint32_t slot) {
+  stack_.steps.count();
+  Value& rounds = stack_.slot(slot);
+  if (rounds.number() >= kRoundLimit)
+    stack_.fail("For loop counter exceeded limit", stack_.place());
+  rounds = rounds.number() + 1;
 }
 
 }  // namespace language

@@ -34,6 +34,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "files/named_files.hpp"
 #include "language/source_files.hpp"
@@ -48,7 +49,7 @@ struct FunctionEnvironment {
   NamedFiles& files;
   std::mt19937 random;  // of rands(), seeded by time and process unless a call seeds it
   /// Names of the user modules on the stack, outermost first: parent_module() reads them.
-  std::span<const std::string_view> module_names{};
+  std::vector<std::string_view> module_names{};
   /// What dxf_dim() and dxf_cross() have found.
   std::unordered_map<std::string, Value> measures{};
 };

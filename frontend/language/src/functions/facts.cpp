@@ -58,7 +58,7 @@ Value parent_module(const FunctionCall& call) {
               std::string(after));
     return Value::undef();
   };
-  const auto modules = call.environment.module_names;
+  const auto& modules = call.environment.module_names;
   if (level < 0) return refuse("Negative p", "not allowed");
   if (static_cast<size_t>(level) >= modules.size())
     return refuse("P", "greater than the number of modules on the stack");

@@ -1,0 +1,118 @@
+#include "evaluation/call_stack.hpp"
+
+#include <utility>
+
+namespace language {
+namespace {
+
+constexpr int kTraceLimit = 12;  // lines per error
+constexpr uint32_t kTailLimit = 1000000;
+constexpr int64_t kMostNestedBytes = int64_t{96} << 20, kMostRoundsBytes = int64_t{256} << 20;
+
+}  // namespace
+
+CallStack::CallStack(const Program& program, FunctionEnvironment& environment, const NodeTree& tree,
+                     std::stop_token stop)
+    : steps(std::move(stop), tree),
+      dynamic(program.names.size()),
+      recorder(program, environment, dynamic, steps),
+      program_(program),
+      environment_(environment) {
+  set_unit(0);
+}
+
+inline void CallStack::enter(const Code& code, uint32_t next, uint32_t base, HeapScope* scope) {
+  instructions_ = code.instructions.data();
+  next_ = next;
+  base_ = base;
+  scope_ = scope;
+  if (code.unit != unit_) set_unit(code.unit);
+}
+
+void CallStack::push(const Code& code, uint32_t base, HeapScope* scope, FrameKind kind,
+                     uint32_t activation) {
+  steps.count();
+  values.reserve(base + code.deepest + 1);  // before the frame, so that errors have their place
+  if (!frames_.empty()) {
+    frames_.back().next = next_;
+    frames_.back().scope = scope_;
+  }
+  frames_.push_back({&code, 0, base, scope, dynamic.trail(), activation, object_memory.used, kind});
+  recorder.note_code(code);
+  enter(code, 0, base, scope);
+}
+
+void CallStack::pop() {
+  HeapScopes::release(scope_);
+  frames_.pop_back();
+  scope_ = nullptr;
+  if (frames_.empty()) return;
+  const Frame& frame = frames_.back();
+  enter(*frame.code, frame.next, frame.base, frame.scope);
+}
+
+// What the inner half of the calls has made is the recursion's, not that of the design around it.
+bool CallStack::takes_too_much() const {
+  if (depth() >= kDepthLimit) return true;
+  return object_memory.used - frames_[depth() / 2].memory > kMostNestedBytes;
+}
+
+bool CallStack::loops_too_long() {
+  steps.count();
+  Frame& frame = frames_.back();
+  const bool grows =
+      ++frame.rounds > kFewCalls && object_memory.used - frame.memory > kMostRoundsBytes;
+  return frame.rounds > kTailLimit || grows;
+}
+
+HeapScope* CallStack::scope_at(uint32_t number) const {
+  HeapScope* scope = scope_;
+  for (; number; --number) scope = scope->parent;
+  return scope;
+}
+
+void CallStack::pop_scope() {
+  HeapScope* const scope = scope_;
+  scope_ = HeapScopes::acquire(scope->parent);
+  leave_scope(scope);
+}
+
+std::string CallStack::text_of(const Expression& callee) const {
+  std::string text = "(";
+  append_expression_text(text, callee, program_.names);
+  return text + ")";
+}
+
+void CallStack::fail(std::string text, Place place) {
+  environment_.messages.say(MessageGroup::kError, std::move(text), place, PathBase::kUnit);
+  say_traces();
+  throw Aborted();
+}
+
+void CallStack::fail_recursion(const char* kind, std::string_view name, Place place) {
+  fail("Recursion detected calling " + std::string(kind) + " '" + std::string(name) + "'", place);
+}
+
+void CallStack::say_traces() {
+  frames_.back().next = next_;
+  int count = 0;
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    set_unit(frame->code->unit);
+    for (const TraceRegion& region : frame->code->regions) {
+      if (frame->next <= region.begin || frame->next > region.end) continue;
+      if (++count > kTraceLimit) return;
+      const std::string name =
+          region.callee && region.name.empty() ? text_of(*region.callee) : std::string(region.name);
+      environment_.messages.say(MessageGroup::kTrace, "called by '" + name + "'", region.place,
+                                PathBase::kUnit);
+    }
+  }
+}
+
+void CallStack::set_unit(uint32_t unit) {
+  unit_ = unit;
+  environment_.messages.set_unit_folder(program_.units[unit].folder);
+  environment_.files.set_unit_folder(program_.units[unit].folder);
+}
+
+}  // namespace language
