@@ -13,8 +13,8 @@
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/terminal.hpp"
-#include "habits.hpp"
-#include "panels/clipboard.hpp"
+#include "memory.hpp"
+#include "panels/panels.hpp"
 #include "state_texts.hpp"
 
 namespace window {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands.hpp"
 #include "editor.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/files.hpp"
@@ -15,10 +16,9 @@
 #include "hover_timer.hpp"
 #include "memory.hpp"
 #include "motion_meter.hpp"
+#include "navigation.hpp"
 #include "painter.hpp"
-#include "pan.hpp"
 #include "panels/panels.hpp"
-#include "picture_keys.hpp"
 #include "report.hpp"
 #include "screen.hpp"
 #include "state.hpp"

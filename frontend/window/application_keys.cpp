@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "application.hpp"
-#include "picture_keys.hpp"
+#include "commands.hpp"
 
 namespace window {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "application.hpp"
-#include "habits.hpp"
+#include "memory.hpp"
 #include "process/start_program.hpp"
 
 namespace window {

@@ -1,8 +1,8 @@
-#include "circle_centers.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "snap.hpp"
 
 namespace window {
 namespace {

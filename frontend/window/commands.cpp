@@ -79,6 +79,23 @@ const CommandRow* row_of(Command command) {
                       [&](const CommandRow& row) { return row.command == command; });
 }
 
+using Action = PictureKey::Action;
+
+constexpr PictureKey kPictureKeys[] = {
+    {GLFW_KEY_LEFT, kNone, Action::kTurn, -1, 0},
+    {GLFW_KEY_RIGHT, kNone, Action::kTurn, 1, 0},
+    {GLFW_KEY_UP, kNone, Action::kTurn, 0, 1},
+    {GLFW_KEY_DOWN, kNone, Action::kTurn, 0, -1},
+    {GLFW_KEY_LEFT, kShift, Action::kPan, -1, 0},
+    {GLFW_KEY_RIGHT, kShift, Action::kPan, 1, 0},
+    {GLFW_KEY_UP, kShift, Action::kPan, 0, 1},
+    {GLFW_KEY_DOWN, kShift, Action::kPan, 0, -1},
+    {GLFW_KEY_PAGE_UP, kNone, Action::kMoveSection, 0, 1},
+    {GLFW_KEY_PAGE_DOWN, kNone, Action::kMoveSection, 0, -1},
+    {GLFW_KEY_ENTER, kNone, Action::kMeasure},
+    {GLFW_KEY_KP_ENTER, kNone, Action::kMeasure},
+};
+
 }  // namespace
 
 std::span<const CommandRow> command_rows() { return kRows; }
@@ -89,6 +106,13 @@ const CommandRow* find_command(int key, uint8_t modifiers) {
   }
   for (const auto& further : kFurtherKeys) {
     if (further.key == key && further.modifiers == modifiers) return row_of(further.command);
+  }
+  return nullptr;
+}
+
+const PictureKey* find_picture_key(int key, uint8_t modifiers) {
+  for (const PictureKey& row : kPictureKeys) {
+    if (row.key == key && row.modifiers == modifiers) return &row;
   }
   return nullptr;
 }

@@ -1,5 +1,5 @@
 // All commands of the keys and the menu, in one table, from which the keys are read and the menu
-// and the help sheet are made.
+// and the help sheet are made; and the keys that do for the picture what the mouse does.
 #pragma once
 
 #include <cstdint>
@@ -73,5 +73,24 @@ std::span<const CommandRow> command_rows();
 
 /// Returns the command of a key; null if there is none.
 const CommandRow* find_command(int key, uint8_t modifiers);
+
+/// A key that does for the picture what the mouse does.
+struct PictureKey {
+  enum class Action : uint8_t {
+    kTurn,
+    kPan,
+    kMoveSection,
+    kMeasure,
+  };
+  int key;  // GLFW's number
+  uint8_t modifiers;
+  Action action;
+  int right = 0;  // the direction in the picture: 1, 0 or -1
+  int up = 0;     // of the section plane: along its axis
+};
+
+/// Returns what a key does; null: nothing. Measuring is done once for each press, the rest again
+/// and again while the key is held.
+const PictureKey* find_picture_key(int key, uint8_t modifiers);
 
 }  // namespace window

@@ -1,12 +1,21 @@
-// The camera that shows all of something, in a part of the picture.
+// The box of what is seen, and the camera that shows all of it in a part of the picture.
 #pragma once
 
 #include <functional>
 
 #include "csgcore/geometry.hpp"
+#include "csgcore/scene.hpp"
 #include "navigation.hpp"
 
 namespace window {
+
+/// Returns a box of what the operations leave of the scene, and of its `%` and `#` parts. It holds
+/// all of that; how tight it is tells csgcore's tight_bounds().
+csgcore::Box seen_box(const csgcore::Scene& scene);
+
+/// Returns such a box of all points to_frame · p. `bounds` is seen_box(scene).
+csgcore::Box seen_box(const csgcore::Scene& scene, const csgcore::Box& bounds,
+                      const csgcore::Mat3& to_frame);
 
 /// A part of the picture, in shares of its width and height from its upper left corner.
 struct PicturePart {

@@ -20,7 +20,6 @@
 #include "frontend/terminal.hpp"
 #include "letters.hpp"
 #include "panels/keyboard.hpp"
-#include "picture_keys.hpp"
 
 namespace window {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/elapsed.hpp"
 #include "csgcore/stop_scope.hpp"
 #include "frontend/channel_picture.hpp"
-#include "primitive_around.hpp"
+#include "section_plane.hpp"
 #include "snap.hpp"
 
 namespace window {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 
+#include "csgcore/csg_tree.hpp"
 #include "csgcore/scene.hpp"
 
 namespace window {
@@ -24,5 +27,11 @@ csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane,
                         const csgcore::Box& bounds);
 
 constexpr uint32_t kSectionId = 0xFFFFFFFEu;  // no file has so many primitives
+
+/// Returns the first primitive of the tree that the point lies in and that no operation takes away
+/// there: what a cut through the solid shows. Nothing if the point is outside of the solid.
+/// `contains` tells which primitives the point lies in.
+std::optional<uint32_t> primitive_around(const csgcore::CsgTree& tree,
+                                         const std::function<bool(uint32_t primitive)>& contains);
 
 }  // namespace window

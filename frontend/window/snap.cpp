@@ -7,8 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "circle_centers.hpp"
-
 namespace window {
 namespace {
 

@@ -14,4 +14,10 @@ namespace window {
 std::optional<RayHit> snap(const ModelRays& rays, const csgcore::View& view,
                            const PicturePoint& click, double reach_px);
 
+/// Returns the nearest centre, within `reach_px` of a click, of a circle, in which a hole, a pin or
+/// a countersink ends, and of which something is seen. Where several are behind each other, it is
+/// the nearest to the eye.
+std::optional<RayHit> center_of_circle(const ModelRays& rays, const csgcore::View& view,
+                                       const PicturePoint& click, double reach_px);
+
 }  // namespace window

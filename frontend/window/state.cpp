@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "seen_box.hpp"
+#include "framing.hpp"
 
 namespace window {
 namespace {

@@ -19,7 +19,6 @@
 #include "message_list.hpp"
 #include "navigation.hpp"
 #include "painter.hpp"
-#include "parameter_edit.hpp"
 #include "projection.hpp"
 #include "section_plane.hpp"
 

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "language/customizer.hpp"
-#include "number_grid.hpp"
 #include "temporary_folder.hpp"
 
 namespace window {

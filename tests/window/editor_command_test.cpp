@@ -1,11 +1,11 @@
 // Tests the command that is made of an editor and a place.
-#include "editor_command.hpp"
-
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
 #include <string>
 #include <vector>
+
+#include "editor.hpp"
 
 namespace window {
 namespace {

@@ -12,9 +12,8 @@
 
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
-#include "panels/free_part.hpp"
+#include "panels/layout.hpp"
 #include "projection.hpp"
-#include "seen_box.hpp"
 
 namespace window {
 namespace {

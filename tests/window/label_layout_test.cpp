@@ -1,10 +1,10 @@
 // Tests that labels can be read wherever their points are.
-#include "panels/label_layout.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <random>
+
+#include "panels/layout.hpp"
 
 namespace window {
 namespace {

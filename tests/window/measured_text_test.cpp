@@ -1,9 +1,8 @@
 // Tests the words of what is measured, as they are shown and copied.
-#include "measured_text.hpp"
-
 #include <gmock/gmock.h>
 
 #include "frontend/options.hpp"
+#include "state_texts.hpp"
 
 namespace window {
 namespace {

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include "frontend/color_scheme.hpp"
-#include "habits.hpp"
 #include "temporary_folder.hpp"
 
 namespace window {

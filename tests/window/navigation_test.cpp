@@ -9,7 +9,6 @@
 #include <limits>
 #include <random>
 
-#include "pan.hpp"
 #include "projection.hpp"
 
 namespace window {

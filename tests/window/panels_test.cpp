@@ -10,7 +10,7 @@
 
 #include "frontend/parser.hpp"
 #include "language/customizer.hpp"
-#include "measured_text.hpp"
+#include "state_texts.hpp"
 
 namespace window {
 namespace {

@@ -11,7 +11,6 @@
 #include "frontend/parser.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "navigation.hpp"
-#include "seen_box.hpp"
 
 namespace window {
 namespace {

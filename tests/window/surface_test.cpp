@@ -9,7 +9,7 @@
 
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/profile.hpp"
-#include "primitive_around.hpp"
+#include "section_plane.hpp"
 
 namespace window {
 namespace {

@@ -1,12 +1,10 @@
-#include "panels/animation_panel.hpp"
-
 #include <imgui.h>
 
 #include <algorithm>
 #include <chrono>
 #include <string>
 
-#include "panels/fitted_text.hpp"
+#include "panels/panels.hpp"
 #include "panels/style.hpp"
 
 namespace window {

@@ -1,13 +1,10 @@
-#include "panels/customizer_panel.hpp"
-
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <string>
 
-#include "panels/fitted_text.hpp"
-#include "panels/parameter_control.hpp"
+#include "panels/panels.hpp"
 #include "panels/style.hpp"
 
 namespace window {
@@ -15,7 +12,6 @@ namespace {
 
 using Parameter = Customizer::Parameter;
 
-constexpr float kMargin = 10;
 /// The least width beside the section's panel, in heights of the font.
 constexpr float kLeastBeside = 13;
 
@@ -170,21 +166,21 @@ bool is_shown(const State& state) {
 
 float customizer_right(const State& state, const SectionCorner& section) {
   if (!is_shown(state)) return 0;
-  const float font = ImGui::GetFontSize(), beside = section.left - 2 * kMargin;
+  const float font = ImGui::GetFontSize(), beside = section.left - 2 * kPanelMargin;
   const float most =
-      beside >= kLeastBeside * font ? beside : ImGui::GetIO().DisplaySize.x - 2 * kMargin;
-  return kMargin + std::min(18 * font, most);
+      beside >= kLeastBeside * font ? beside : ImGui::GetIO().DisplaySize.x - 2 * kPanelMargin;
+  return kPanelMargin + std::min(18 * font, most);
 }
 
 void draw_customizer(State& state, float bottom, const SectionCorner& section) {
   if (!is_shown(state)) return;
-  const float right = customizer_right(state, section), width = right - kMargin;
+  const float right = customizer_right(state, section), width = right - kPanelMargin;
   const float least = 4 * ImGui::GetFrameHeight();
-  float top = ImGui::GetFrameHeight() + kMargin;
-  const bool has_room_below = section.bottom + 2 * kMargin + least <= bottom;
-  if (right >= section.left && has_room_below) top = section.bottom + kMargin;
-  const float height = std::max(bottom - kMargin - top, least);
-  ImGui::SetNextWindowPos({kMargin, top});
+  float top = ImGui::GetFrameHeight() + kPanelMargin;
+  const bool has_room_below = section.bottom + 2 * kPanelMargin + least <= bottom;
+  if (right >= section.left && has_room_below) top = section.bottom + kPanelMargin;
+  const float height = std::max(bottom - kPanelMargin - top, least);
+  ImGui::SetNextWindowPos({kPanelMargin, top});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});
   ImGui::SetNextWindowBgAlpha(0.9f);
   if (ImGui::Begin("Parameters##customizer", &state.shows_parameters,

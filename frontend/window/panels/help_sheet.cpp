@@ -1,5 +1,3 @@
-#include "panels/help_sheet.hpp"
-
 #include <imgui.h>
 
 #include <algorithm>
@@ -8,7 +6,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "panels/fitted_text.hpp"
+#include "panels/panels.hpp"
+#include "panels/style.hpp"
 
 namespace window {
 namespace {

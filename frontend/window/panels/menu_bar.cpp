@@ -1,5 +1,3 @@
-#include "panels/menu_bar.hpp"
-
 #include <imgui.h>
 
 #include <algorithm>
@@ -11,8 +9,9 @@
 #include <utility>
 
 #include "frontend/color_scheme.hpp"
-#include "panels/fitted_text.hpp"
 #include "panels/keyboard.hpp"
+#include "panels/panels.hpp"
+#include "panels/style.hpp"
 
 namespace window {
 namespace {

@@ -1,16 +1,12 @@
-#include "panels/message_panel.hpp"
-
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <string>
 
-#include "measured_text.hpp"
-#include "panels/clipboard.hpp"
-#include "panels/fitted_text.hpp"
+#include "panels/panels.hpp"
 #include "panels/style.hpp"
-#include "panels/text_line.hpp"
+#include "state_texts.hpp"
 
 namespace window {
 namespace {

@@ -2,17 +2,9 @@
 
 #include <imgui.h>
 
-#include "panels/animation_panel.hpp"
-#include "panels/customizer_panel.hpp"
-#include "panels/free_part.hpp"
-#include "panels/help_sheet.hpp"
-#include "panels/hover_tip.hpp"
 #include "panels/keyboard.hpp"
-#include "panels/place_panel.hpp"
-#include "panels/point_labels.hpp"
-#include "panels/progress_panel.hpp"
-#include "panels/section_panel.hpp"
-#include "panels/status_bar.hpp"
+#include "panels/layout.hpp"
+#include "state_texts.hpp"
 
 namespace window {
 
@@ -39,6 +31,21 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   draw_save_dialogue(state, actions.save);
   draw_open_dialogue(state, actions.open_design);
   mark_entered_panel();
+}
+
+void copy(State& state, const std::string& text) {
+  ImGui::SetClipboardText(text.c_str());
+  const std::size_t end = text.find('\n');
+  state.notice = "copied: " + text.substr(0, end) + (end == std::string::npos ? "" : " …");
+}
+
+void copy_measured_or_said(State& state) {
+  const std::string text = text_to_copy(state);
+  if (text.empty()) {
+    state.notice = "nothing is measured or said: a click on the design measures a point";
+  } else {
+    copy(state, text);
+  }
 }
 
 }  // namespace window

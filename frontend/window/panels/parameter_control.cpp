@@ -1,5 +1,3 @@
-#include "panels/parameter_control.hpp"
-
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -8,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "number_grid.hpp"
+#include "customizer.hpp"
+#include "panels/panels.hpp"
 
 namespace window {
 namespace {

@@ -1,23 +1,19 @@
-#include "panels/place_panel.hpp"
-
 #include <imgui.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "measured_text.hpp"
-#include "panels/clipboard.hpp"
-#include "panels/fitted_text.hpp"
+#include "panels/panels.hpp"
 #include "panels/style.hpp"
 #include "projection.hpp"
+#include "state_texts.hpp"
 
 namespace window {
 namespace {
 
-constexpr float kMargin = 10;
 /// The least width of texts beside the parameters, in heights of the font.
-constexpr float kLeastBeside = 16;
+constexpr float kLeastBesideParameters = 16;
 constexpr ImU32 kPlaceColor = IM_COL32(170, 190, 215, 255);
 
 /// The widths of the trail's two columns, and the gap between them.
@@ -70,10 +66,10 @@ struct Layout {
 Layout layout_of(const State& state, const FreeRoom& room) {
   const MeasuredPoint& point = state.points.back();
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const float around = 2 * (kMargin + padding.x), display = ImGui::GetIO().DisplaySize.x;
+  const float around = 2 * (kPanelMargin + padding.x), display = ImGui::GetIO().DisplaySize.x;
   Layout layout;
   layout.is_below =
-      room.left > 0 && display - room.left - around < kLeastBeside * ImGui::GetFontSize();
+      room.left > 0 && display - room.left - around < kLeastBesideParameters * ImGui::GetFontSize();
   layout.most_text = std::max(display - (layout.is_below ? 0 : room.left) - around, 50.0f);
   layout.measured = measured_lines(state.points);
   layout.columns = columns_of(point.place, layout.most_text);
@@ -90,16 +86,16 @@ Layout layout_of(const State& state, const FreeRoom& room) {
 ImVec2 corner_of(const Layout& layout, const State& state, const csgcore::View& view,
                  const FreeRoom& room) {
   const ImVec2& size = layout.size;
-  const float left = (layout.is_below ? 0 : room.left) + kMargin;
-  if (layout.is_below) return {left, room.bottom - size.y - kMargin};
-  float top = ImGui::GetFrameHeight() + kMargin;
-  if (left + size.x > room.section.left) top = room.section.bottom + kMargin;
+  const float left = (layout.is_below ? 0 : room.left) + kPanelMargin;
+  if (layout.is_below) return {left, room.bottom - size.y - kPanelMargin};
+  float top = ImGui::GetFrameHeight() + kPanelMargin;
+  if (left + size.x > room.section.left) top = room.section.bottom + kPanelMargin;
   const auto point = project(view, state.points.back().position);
-  const bool hides = point && point->x_px > left - kMargin &&
-                     point->x_px < left + size.x + kMargin && point->y_px > top &&
-                     point->y_px < top + size.y + kMargin;
-  const float bottom = room.bottom - size.y - kMargin;
-  return {left, hides && bottom > point->y_px + kMargin ? bottom : top};
+  const bool hides = point && point->x_px > left - kPanelMargin &&
+                     point->x_px < left + size.x + kPanelMargin && point->y_px > top &&
+                     point->y_px < top + size.y + kPanelMargin;
+  const float bottom = room.bottom - size.y - kPanelMargin;
+  return {left, hides && bottom > point->y_px + kPanelMargin ? bottom : top};
 }
 
 }  // namespace
@@ -107,7 +103,7 @@ ImVec2 corner_of(const Layout& layout, const State& state, const csgcore::View& 
 float height_below_parameters(const State& state, const FreeRoom& room) {
   if (!state.shows_place || state.points.empty()) return 0;
   const Layout layout = layout_of(state, room);
-  return layout.is_below ? layout.size.y + kMargin : 0;
+  return layout.is_below ? layout.size.y + kPanelMargin : 0;
 }
 
 LabelBox draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
@@ -119,7 +115,7 @@ LabelBox draw_place(State& state, const csgcore::View& view, const FreeRoom& roo
   const bool has_file = place != nullptr && !place->path.empty();
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(corner_of(layout, state, view, room));
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kMargin, display.y / 2});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kPanelMargin, display.y / 2});
   ImGui::SetNextWindowBgAlpha(0.85f);
   if (ImGui::Begin("##place", nullptr, kOverlay & ~ImGuiWindowFlags_NoScrollbar)) {
     if (point.is_cut) ImGui::TextUnformatted("cut by the section plane:");

@@ -1,6 +1,6 @@
-#include "panels/section_panel.hpp"
-
 #include <imgui.h>
+
+#include "panels/panels.hpp"
 
 namespace window {
 

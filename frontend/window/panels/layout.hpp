@@ -1,8 +1,10 @@
-// Where labels stand so that each can be read.
+// Where labels stand so that each can be read, and which part of the picture no panel covers.
 #pragma once
 
 #include <span>
 #include <vector>
+
+#include "framing.hpp"
 
 namespace window {
 
@@ -16,5 +18,9 @@ struct LabelBox {
 /// wanted.
 void separate(std::span<LabelBox> labels, std::span<const LabelBox> obstacles,
               const LabelBox& room);
+
+/// Returns the largest part of the room that is beside the panels, less a margin. A panel that
+/// would take most of it lies over the part.
+PicturePart free_part(const LabelBox& display, LabelBox room, std::span<const LabelBox> panels);
 
 }  // namespace window
