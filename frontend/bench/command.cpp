@@ -1,5 +1,3 @@
-#include "command.hpp"
-
 #include <unistd.h>
 
 #include <cstdio>
@@ -8,10 +6,12 @@
 
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
+#include "frontend/interrupt.hpp"
 #include "frontend/progress.hpp"
+#include "frontend/run_program.hpp"
 #include "frontend/terminal.hpp"
+#include "measurement.hpp"
 #include "options.hpp"
-#include "report.hpp"
 
 namespace bench {
 namespace {
@@ -142,8 +142,11 @@ ExitCode run(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-ExitCode run_command(const std::vector<std::string>& arguments) {
-  return frontend::run_program([&] { return run(arguments); }, "a smaller --imgsize or design");
-}
-
 }  // namespace bench
+
+int main(int argc, char** argv) {
+  frontend::handle_interrupts();
+  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return static_cast<int>(frontend::run_program([&] { return bench::run(arguments); },
+                                                "a smaller --imgsize or design"));
+}

@@ -10,11 +10,23 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/image.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/render.hpp"
 
 namespace bench {
+
+/// Counts the pixels of `image` that show another face than `exact`, or a face where the other
+/// shows none. Precondition: both have the same size, and measured channels.
+uint64_t wrong_pixels(const csgcore::Image& image, const csgcore::Image& exact);
+
+/// Returns whether every channel is the same, bit for bit.
+bool is_same(const csgcore::Image& a, const csgcore::Image& b);
+
+/// Returns whether the rounding of float explains so many wrong pixels in an OpenGL picture of
+/// `hits` hits.
+bool float_explains(uint64_t wrong_pixels, uint64_t hits);
 
 using Json = nlohmann::ordered_json;
 
@@ -54,5 +66,8 @@ using Progress = std::function<void(const std::string& stage)>;
 /// are those of a turning camera. An empty model is not measured. Throws frontend::Error.
 Json measure(const ScenePointer& scene, std::span<const csgcore::View> views,
              const Settings& settings, const Progress& progress);
+
+/// Returns what measure() returns of a file as a table for people. It ends with a line break.
+std::string table_of(const std::string& file, const Json& result);
 
 }  // namespace bench

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "command/option_row.hpp"
 #include "frontend/camera.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/importer.hpp"
@@ -32,5 +34,8 @@ Options parse_options(const std::vector<std::string>& arguments);
 
 /// Returns the text of --help.
 std::string help_text();
+
+/// Returns the option table, for the manual page and the completions, too (frontend/packaging).
+std::span<const frontend::OptionRow> option_rows();
 
 }  // namespace bench

@@ -1,6 +1,6 @@
-#include "report.hpp"
-
 #include <cstdio>
+
+#include "measurement.hpp"
 
 namespace bench {
 namespace {

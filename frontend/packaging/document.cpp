@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "bench/option_rows.hpp"
+#include "bench/options.hpp"
 #include "command/option_table.hpp"
 #include "program.hpp"
-#include "validate/option_rows.hpp"
+#include "validate/options.hpp"
 
 namespace packaging {
 namespace {

@@ -1,5 +1,3 @@
-#include "command.hpp"
-
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -13,13 +11,14 @@
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
+#include "frontend/interrupt.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/progress.hpp"
+#include "frontend/run_program.hpp"
 #include "frontend/terminal.hpp"
 #include "language/evaluation.hpp"
 #include "options.hpp"
 #include "render/scene_scale.hpp"
-#include "report.hpp"
 #include "validation.hpp"
 
 namespace validation {
@@ -155,8 +154,11 @@ ExitCode run(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-ExitCode run_command(const std::vector<std::string>& arguments) {
-  return frontend::run_program([&] { return run(arguments); }, "a smaller design or --fn");
-}
-
 }  // namespace validation
+
+int main(int argc, char** argv) {
+  frontend::handle_interrupts();
+  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return static_cast<int>(frontend::run_program([&] { return validation::run(arguments); },
+                                                "a smaller design or --fn"));
+}

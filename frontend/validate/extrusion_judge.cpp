@@ -17,10 +17,10 @@
 #include "frontend/importer.hpp"
 #include "subtrees/render_text.hpp"
 #include "subtrees/node_row.hpp"
+#include "ray_judge.hpp"
 #include "render/scene_scale.hpp"
 #include "rendered/openscad_process.hpp"
 #include "samples.hpp"
-#include "traced_ray.hpp"
 
 namespace validation {
 namespace {

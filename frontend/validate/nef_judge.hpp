@@ -6,7 +6,7 @@
 
 #include "csgcore/scene.hpp"
 #include "oracle/nef_solid.hpp"
-#include "seen_ray.hpp"
+#include "ray_judge.hpp"
 
 namespace validation {
 

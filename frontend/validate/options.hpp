@@ -1,10 +1,12 @@
-// The command line of scadray-validate.
+// The command line of scadray-validate. Neither this file nor options.cpp needs CGAL.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "command/option_row.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/importer.hpp"
 #include "validation.hpp"
@@ -31,5 +33,8 @@ Options parse_options(const std::vector<std::string>& arguments);
 
 /// Returns the text of --help.
 std::string help_text();
+
+/// Returns the option table, for the manual page and the completions, too (frontend/packaging).
+std::span<const frontend::OptionRow> option_rows();
 
 }  // namespace validation

@@ -1,10 +1,10 @@
-#include "report.hpp"
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
 #include <vector>
+
+#include "validation.hpp"
 
 namespace validation {
 namespace {

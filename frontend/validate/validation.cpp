@@ -8,12 +8,11 @@
 
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
-#include "exact_judge.hpp"
 #include "faceted_scene.hpp"
 #include "nef_judge.hpp"
 #include "planted_error.hpp"
+#include "ray_judge.hpp"
 #include "samples.hpp"
-#include "traced_ray.hpp"
 #include "volume.hpp"
 
 namespace validation {

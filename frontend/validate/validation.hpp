@@ -41,4 +41,13 @@ struct Result {
 /// same result, apart from how much the time allows.
 Result validate(const csgcore::Scene& scene, const Settings& settings, const Progress& progress);
 
+/// Returns the result as a table for people. It ends with a line break. Errors are shares of the
+/// design's size; that of the volume is a share of the volume.
+std::string table_of(const Result& result);
+
+/// Returns JSON with the disagreements of every check. Primitives are named by their ids
+/// (csgcore/primitive.hpp), and coordinates are in the design's units times 2^`exponent`.
+std::string report_of(const Result& result, const std::string& file, const Settings& settings,
+                      int exponent);
+
 }  // namespace validation

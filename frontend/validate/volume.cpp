@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "csgcore/tracer.hpp"
-#include "random.hpp"
-#include "traced_ray.hpp"
+#include "ray_judge.hpp"
+#include "samples.hpp"
 
 namespace validation {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "bench/report.hpp"
 #include "frontend/camera.hpp"
 #include "support/models.hpp"
 

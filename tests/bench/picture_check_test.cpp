@@ -1,7 +1,7 @@
 // Tests which pictures count as wrong.
-#include "bench/picture_check.hpp"
-
 #include <gtest/gtest.h>
+
+#include "bench/measurement.hpp"
 
 namespace bench {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/solid.hpp"
-#include "exact_judge.hpp"
 #include "faceted_scene.hpp"
 #include "nef_judge.hpp"
-#include "random.hpp"
+#include "ray_judge.hpp"
+#include "samples.hpp"
 
 namespace validation {
 namespace {

@@ -12,7 +12,6 @@
 #include "csgcore/solid.hpp"
 #include "frontend/error.hpp"
 #include "planted_error.hpp"
-#include "random.hpp"
 
 namespace validation {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "csgcore/polyhedron.hpp"
 #include "frontend/error.hpp"
-#include "report.hpp"
 #include "support/test_meshes.hpp"
+#include "validation.hpp"
 #include "volume.hpp"
 
 namespace validation {

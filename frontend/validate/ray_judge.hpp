@@ -1,4 +1,5 @@
-// A ray, what a renderer sees along it, and the interface of its judges.
+// A ray, what a renderer sees along it, the interface of its judges, and the judge by the exact
+// ray oracle.
 #pragma once
 
 #include <limits>
@@ -7,8 +8,10 @@
 
 #include "check.hpp"
 #include "csgcore/image.hpp"
+#include "csgcore/subdivision.hpp"
 #include "csgcore/tracer.hpp"
 #include "csgcore/view.hpp"
+#include "oracle/exact_rays.hpp"
 
 namespace validation {
 
@@ -62,5 +65,12 @@ Json json_of(const Seen& seen);
 /// Returns the ray moved sideways by `aside`, in the direction `angle` (radians) about it, and
 /// forward.
 csgcore::Ray moved(const csgcore::Ray& ray, double angle, double aside, double forward);
+
+/// Returns what the only pixel of the view sees: by the CPU, through the cells of a kd-tree.
+Seen traced_ray(const csgcore::Subdivision& subdivision, const csgcore::View& view);
+
+/// Returns the judge by the exact ray oracle. The scene must outlive the judge.
+std::unique_ptr<RayJudge> make_exact_judge(const oracle::ExactScene& scene,
+                                           const Tolerance& tolerance);
 
 }  // namespace validation

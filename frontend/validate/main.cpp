@@ -1,8 +1,0 @@
-#include "command.hpp"
-#include "frontend/interrupt.hpp"
-
-int main(int argc, char** argv) {
-  frontend::handle_interrupts();
-  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return static_cast<int>(validation::run_command(arguments));
-}
