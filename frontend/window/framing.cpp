@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "csgcore/tight_bounds.hpp"
+#include "csgcore/solid.hpp"
 
 namespace window {
 namespace {

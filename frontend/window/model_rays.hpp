@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "csgcore/hits.hpp"
+#include "csgcore/image.hpp"
 #include "csgcore/primitive.hpp"
 #include "csgcore/view.hpp"
 #include "projection.hpp"

@@ -12,9 +12,9 @@
 
 #include "batch_queue.hpp"
 #include "csgcore/phong.hpp"
-#include "csgcore/sample_pattern.hpp"
 #include "csgcore/tracer.hpp"
 #include "csgcore/triangle_mesh.hpp"
+#include "csgcore/view.hpp"
 #include "frame.hpp"
 #include "glrender/stopwatch.hpp"
 #include "render_target.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "packets/hit_sink.hpp"
-#include "rays/make_rays.hpp"
+#include "rays/frame_rays.hpp"
 #include "rays/packet_blocks.hpp"
 
 namespace csgcore::checks {

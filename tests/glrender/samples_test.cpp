@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "csgcore/sample_pattern.hpp"
+#include "csgcore/view.hpp"
 #include "fixture.hpp"
 #include "support/models.hpp"
 

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "csgcore/primitive.hpp"
-#include "csgcore/profile_edge.hpp"
+#include "csgcore/profile.hpp"
 #include "ray_oracle.hpp"
 
 namespace oracle {

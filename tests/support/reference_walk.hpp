@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "csgcore/hits.hpp"
+#include "csgcore/image.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/view.hpp"
 #include "reference.hpp"

@@ -1,8 +1,10 @@
-// The facets that OpenSCAD gives its primitives (frontend/OPENSCAD.md, "Facets"), vertex by
-// vertex, in the primitive's own frame.
+// The facets that OpenSCAD gives its primitives (frontend/OPENSCAD.md, "Facets"), in the
+// primitive's own frame: vertex by vertex, and as half-spaces.
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -46,5 +48,60 @@ struct Primitive;
 /// above, where it has the solid. Its faces are convex. It is empty where the solid is not round,
 /// or made of a profile.
 Mesh faceted_mesh(const Primitive& primitive, int fragments);
+
+// Convex polyhedra as intersections of half-spaces whose doubles are taken as exact.
+//
+// OpenSCAD lists the vertices of a polyhedron, and rounds them, so that the four corners of a facet
+// lie in no plane. Half-spaces have no such trouble: every set of them defines one convex solid,
+// whose facets are plane and whose vertices are rationals. So csgcore and its oracles take the
+// half-spaces for the definition of a polyhedron.
+
+/// The points x with normal·x ≤ offset. The normal points outwards and may have any length but 0.
+struct HalfSpace {
+  Vec3 normal;
+  double offset;
+};
+
+/// A faceted solid of revolution about z:
+///
+///   max_j sectors_j·(x, y) ≤ min_k (bands_k.radius + bands_k.slope·z),   z_min ≤ z ≤ z_max.
+///
+/// The left side measures (x, y) by the polygon that is inscribed in the unit circle, and is the
+/// same for all z. So the facets of two sectors and two bands meet in one point, however they are
+/// rounded, and all facets are trapezoids. The facet of a direction or a height is found without a
+/// search.
+struct FacetedRevolution {
+  struct Band {
+    double radius;  // of the circle through the vertices, extrapolated to z = 0
+    double slope;   // growth of the radius with z
+  };
+  std::vector<glm::dvec2>
+      sectors;              // sector j lies between the vertices at 360·j/n and 360·(j+1)/n°
+  std::vector<Band> bands;  // from the top down, slopes increasing
+  double z_min, z_max;      // −inf, +inf: no cap, since the bands end in an apex
+};
+
+/// The facets of sphere_mesh() and frustum_mesh(), with the same preconditions. Their
+/// vertices differ from the mesh's by the rounding of the planes only, which along a band of a
+/// sphere is amplified by up to `fragments`.
+FacetedRevolution faceted_sphere(double radius, int fragments);
+FacetedRevolution faceted_frustum(double z_min, double z_max, double r_bottom, double r_top,
+                                  int fragments);
+
+/// Returns the half-spaces band by band from the top down, sector by sector within a band; then
+/// those of the lower and the upper cap, if there.
+std::vector<HalfSpace> half_spaces(const FacetedRevolution& solid);
+/// Returns the six half-spaces of a box, which must not be empty.
+std::vector<HalfSpace> half_spaces(const Box& box);
+
+/// Returns one half-space for each face of the mesh, as far out as its outermost vertex, so that no
+/// vertex is cut off. A face may list its vertices in either direction, whatever other faces do.
+/// Returns nothing unless the mesh is, within kMeshDigits of its largest coordinate, the closed
+/// boundary of one convex solid with plane faces.
+std::optional<std::vector<HalfSpace>> half_spaces(const Mesh& mesh);
+
+/// A .csg holds 6 significant digits, so that a coordinate is off by up to 5e-6 of itself. A vertex
+/// and the plane that it is compared with are both off by so much.
+constexpr double kMeshDigits = 1e-5;
 
 }  // namespace csgcore

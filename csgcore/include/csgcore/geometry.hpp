@@ -1,4 +1,5 @@
-// Vectors, axis-aligned boxes and affine maps, all in double: csgcore's precision.
+// Vectors, axis-aligned boxes and affine maps, all in double: csgcore's precision; and the two
+// tolerances that are fitted to a solid's box.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -45,5 +46,13 @@ Affine compose(const Affine& a, const Affine& b);
 
 /// Returns the inverse of a matrix whose determinant is not 0.
 Mat3 inverse(const Mat3& m);
+
+/// Returns the thickness tolerance τ of a solid with these bounds, in world units. Pieces and gaps
+/// that are thinner along the surface normal do not exist (NUMERICS.md, "The definition").
+double thickness_tolerance(const Box& solid_bounds);
+
+/// Returns how far beyond a cell its function is valid (Subdivision::overlap), in world units, for
+/// a solid with these bounds; 0 if they are empty.
+double cell_overlap(const Box& solid_bounds);
 
 }  // namespace csgcore

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 
 namespace csgcore {
 

@@ -3,13 +3,30 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "csgcore/profile_edge.hpp"
-
 namespace csgcore {
+
+using Vec2 = glm::dvec2;
+
+/// An edge of a profile, from the point where the edge before it ends.
+struct ProfileEdge {
+  enum class Kind : uint8_t {
+    kLine,
+    kArc,     // of the circle about `control` through the start; at most a half turn
+    kBezier,  // quadratic, with the control point `control`
+  };
+  Kind kind = Kind::kLine;
+  bool is_counterclockwise = true;  // an arc's direction
+  Vec2 end{0.0};
+  Vec2 control{0.0};
+};
+
+/// A closed loop: its last edge ends where the first one begins.
+using ProfileLoop = std::vector<ProfileEdge>;
 
 /// What lies inside of the loops.
 enum class FillRule : uint8_t {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "csgcore/blist.hpp"
+#include "csgcore/geometry.hpp"
 #include "csgcore/kd_tree.hpp"
 #include "csgcore/solid.hpp"
-#include "csgcore/tolerance.hpp"
 #include "csgcore/view.hpp"
 
 namespace csgcore {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "csgcore/blist.hpp"
-#include "csgcore/hits.hpp"
+#include "csgcore/image.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/view.hpp"
 

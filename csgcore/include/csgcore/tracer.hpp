@@ -16,11 +16,10 @@
 #include <vector>
 
 #include "csgcore/frame_settings.hpp"
-#include "csgcore/hits.hpp"
+#include "csgcore/geometry.hpp"
 #include "csgcore/image.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
-#include "csgcore/tolerance.hpp"
 #include "csgcore/view.hpp"
 
 namespace csgcore {
@@ -28,7 +27,7 @@ namespace csgcore {
 struct TraceOptions {
   /// Number of worker threads; 0: as many as there are. The picture does not depend on it.
   unsigned threads = 0;
-  /// Rays per pixel where neighbouring pixels show an edge (sample_pattern.hpp); elsewhere one ray
+  /// Rays per pixel where neighbouring pixels show an edge (view.hpp); elsewhere one ray
   /// goes through the pixel's centre. 1: edges are not sampled. The measured channels are always
   /// those of the centre.
   uint32_t samples = 1;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "nef_kernel.hpp"
+#include "nef_polytope.hpp"
 
 namespace oracle {
 

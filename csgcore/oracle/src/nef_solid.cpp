@@ -12,7 +12,7 @@
 #include "child_process.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "nef_lines.hpp"
-#include "nef_mesh.hpp"
+#include "nef_polytope.hpp"
 
 namespace oracle {
 namespace {

@@ -17,8 +17,16 @@ inline std::string shortest_text(double number) {
 }
 
 /// These return the parts as "a, b, c".
-std::string joined(const std::vector<std::string>& parts);
-std::string joined(const std::vector<double>& numbers);
+inline std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+inline std::string joined(const std::vector<double>& numbers) {
+  std::vector<std::string> parts;
+  for (const double number : numbers) parts.push_back(shortest_text(number));
+  return joined(parts);
+}
 inline std::string coordinates(const csgcore::Vec3& v) { return joined({v.x, v.y, v.z}); }
 
 }  // namespace oracle

@@ -9,8 +9,8 @@
 #include <thread>
 #include <utility>
 
-#include "cells/assembler.hpp"
 #include "cells/cell_budget.hpp"
+#include "cells/chunk.hpp"
 
 namespace csgcore {
 namespace {

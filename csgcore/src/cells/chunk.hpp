@@ -1,9 +1,10 @@
-// Pieces of a kd-tree while it is built.
+// Pieces of a kd-tree while it is built, and their assembly.
 #pragma once
 
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cells/split.hpp"
@@ -73,5 +74,13 @@ struct Part {
   std::unique_ptr<Part> below, above;
   Chunk chunk;
 };
+
+/// Returns the whole tree as one chunk, which is the chunk that a single task would have produced
+/// if no cell had been paused.
+Chunk assemble(std::unique_ptr<Part> part);
+
+/// Puts the subtrees of `chunk`, in order, into `tree`: each root replaces the node at its slot,
+/// and other nodes are appended. Resumed subtrees take the places of the paused cells.
+void place(Chunk chunk, std::span<const uint32_t> slots, Chunk& tree);
 
 }  // namespace csgcore

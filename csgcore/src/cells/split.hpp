@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "csgcore/extent.hpp"
+#include "csgcore/canonical_primitive.hpp"
 #include "tree/cell_list.hpp"
 
 namespace csgcore {

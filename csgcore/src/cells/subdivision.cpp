@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "cells/assembler.hpp"
 #include "cells/builder.hpp"
+#include "cells/chunk.hpp"
 
 namespace csgcore {
 Subdivision::Subdivision(const Solid& solid, SubdivisionOptions options, const BatchSink& sink)

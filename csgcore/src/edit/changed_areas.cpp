@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "csgcore/tolerance.hpp"
+#include "csgcore/geometry.hpp"
 #include "screen/screen_extents.hpp"
 #include "tree/subtree_boxes.hpp"
 

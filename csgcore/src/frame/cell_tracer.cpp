@@ -6,7 +6,7 @@
 #include <bit>
 #include <limits>
 
-#include "packets/ranges.hpp"
+#include "packets/packet.hpp"
 #include "rays/packet_blocks.hpp"
 
 namespace csgcore {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "csgcore/sample_pattern.hpp"
+#include "csgcore/view.hpp"
 
 namespace csgcore {
 namespace {

@@ -43,7 +43,7 @@ class KeptColors {
   std::vector<Rgb8> colors_;
 };
 
-/// Replaces the colours of edge pixels by the mean of `samples` rays (sample_pattern.hpp).
+/// Replaces the colours of edge pixels by the mean of `samples` rays (view.hpp).
 class EdgeVisitor final : public TileVisitor {
  public:
   /// `sink` gives the shading and the background; only `rgb` of `image` is written.

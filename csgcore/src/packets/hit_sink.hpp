@@ -1,7 +1,6 @@
 // Receivers of traced packets, which store them as pictures or as hits in memory.
 #pragma once
 
-#include "csgcore/hits.hpp"
 #include "csgcore/image.hpp"
 #include "packets/packet.hpp"
 #include "packets/shading.hpp"

@@ -1,7 +1,6 @@
 // Compiled once per instruction set by Highway.
-#include "packets/ranges.hpp"
-
 #include "base/simd.hpp"
+#include "packets/packet.hpp"
 
 #define HWY_DISABLED_TARGETS CSGCORE_DISABLED_TARGETS
 #undef HWY_TARGET_INCLUDE

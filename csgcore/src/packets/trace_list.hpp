@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "csgcore/canonical_primitive.hpp"
-#include "csgcore/hits.hpp"
+#include "csgcore/image.hpp"
 #include "packets/segment_lists.hpp"
-#include "primitives/packet_segments.hpp"
+#include "primitives/crossings.hpp"
 #include "rays/ray_packet.hpp"
 #include "tree/cell_list.hpp"
 #include "tree/list_expression.hpp"

@@ -5,7 +5,6 @@
 
 #include "csgcore/canonical_primitive.hpp"
 #include "primitives/crossings.hpp"
-#include "primitives/packet_segments.hpp"
 #include "rays/frame_rays.hpp"
 #include "rays/ray_packet.hpp"
 

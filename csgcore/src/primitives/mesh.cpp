@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/constants.hpp"
 #include "csgcore/triangle_mesh.hpp"
-#include "primitives/canonical_slack.hpp"
 #include "primitives/primitive_kind.hpp"
 
 namespace csgcore {

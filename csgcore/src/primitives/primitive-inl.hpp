@@ -17,8 +17,8 @@
 
 #include <hwy/cache_control.h>
 
+#include "primitives/crossings.hpp"
 #include "primitives/frustum-inl.hpp"
-#include "primitives/packet_segments.hpp"
 #include "primitives/polyhedron-inl.hpp"
 #include "primitives/sphere-inl.hpp"
 #include "rays/frame_rays.hpp"

@@ -24,11 +24,11 @@ namespace {
 using Triangle = TriangleMesh::Triangle;
 
 /// Loops are divided into parts of at least so many triangles or vertices.
-constexpr size_t kAtOnce = 4096;
+constexpr size_t kTrianglesAtOnce = 4096;
 
 template <typename Visit>
 void for_each_index(size_t count, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce),
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kTrianglesAtOnce),
                     [&, stop = stop_of_work](const auto& range) {
                       const StopScope scope(stop);
                       stop_point();
@@ -137,7 +137,7 @@ class MeshBvhBuilder {
     nodes_[node].count = 0;
     const auto below = [&] { build(children, begin, split); };
     const auto above = [&] { build(children + 1, split, end); };
-    if (end - begin > kAtOnce) {
+    if (end - begin > kTrianglesAtOnce) {
       const auto stoppable = [stop = stop_of_work](const auto& half) {
         return [&half, stop] {
           const StopScope scope(stop);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "csgcore/view.hpp"
-#include "rays/make_rays.hpp"
+#include "rays/frame_rays.hpp"
 
 namespace csgcore {
 

@@ -1,7 +1,6 @@
 // Compiled once per instruction set by Highway.
-#include "screen/reached.hpp"
-
 #include "base/simd.hpp"
+#include "screen/screen_slab.hpp"
 #include "tree/cell_list.hpp"
 
 #define HWY_DISABLED_TARGETS CSGCORE_DISABLED_TARGETS

@@ -5,10 +5,9 @@
 #include <limits>
 #include <span>
 
-#include "csgcore/extent.hpp"
+#include "csgcore/canonical_primitive.hpp"
 #include "rays/frame_rays.hpp"
 #include "solid/extent_tests.hpp"
-#include "solid/soa_bounds.hpp"
 
 namespace csgcore {
 

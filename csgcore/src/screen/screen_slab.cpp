@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/constants.hpp"
 #include "base/simd.hpp"
 #include "csgcore/polyhedron.hpp"
-#include "primitives/canonical_slack.hpp"
 
 #define HWY_DISABLED_TARGETS CSGCORE_DISABLED_TARGETS
 #undef HWY_TARGET_INCLUDE

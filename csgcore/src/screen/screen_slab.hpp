@@ -3,7 +3,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <span>
 
+#include "csgcore/canonical_primitive.hpp"
+#include "rays/ray_packet.hpp"
 #include "screen/screen_extents.hpp"
 
 namespace csgcore {
@@ -72,5 +76,13 @@ constexpr double kCornered = -2;
 void find_slabs(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
                 const FrameRays& frame, const ScreenOptions& options, Extent* screen,
                 ScreenSlab* slabs, ScreenKDop* corners);
+
+/// Finds, by the bounds on the screen, the lanes that may meet each primitive (indices, whose top
+/// bits are ignored) in the block whose top left pixel is (x, y), and in the block below it. It
+/// uses the extents on the screen, which must not be NaN, and the slabs of primitives whose extent
+/// has inside2 < 0. It holds for rays through pixels' centres only.
+void find_reached(const Extent* screen, const ScreenSlab* slabs,
+                  std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
+                  LaneMask* below);
 
 }  // namespace csgcore

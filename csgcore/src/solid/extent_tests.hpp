@@ -4,11 +4,31 @@
 
 #include <cstdint>
 
-#include "csgcore/extent.hpp"
-#include "solid/soa_bounds.hpp"
+#include "csgcore/canonical_primitive.hpp"
 #include "tree/cell_list.hpp"
 
 namespace csgcore {
+
+// SoA bounds: simple bounds of a group's members in structures of arrays, for vectors of float.
+
+/// Vectors read up to so many entries beyond the last one of a row.
+constexpr uint32_t kRowPadding = 16;
+
+/// Balls, in world units.
+struct BallRows {
+  const float* x;
+  const float* y;
+  const float* z;
+  const float* radius;
+};
+
+/// Rectangles on the screen, in pixels.
+struct RectangleRows {
+  const float* low_x;
+  const float* high_x;
+  const float* low_y;
+  const float* high_y;
+};
 
 /// The lowest `count` bits of a word, 1 ≤ count ≤ 64.
 constexpr uint64_t first_bits(uint32_t count) { return ~uint64_t{0} >> (64 - count); }

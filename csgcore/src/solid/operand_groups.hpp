@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/csg_tree.hpp"
-#include "csgcore/extent.hpp"
-#include "solid/soa_bounds.hpp"
+#include "solid/extent_tests.hpp"
 #include "tree/cell_list.hpp"
 
 namespace csgcore {

@@ -8,7 +8,6 @@
 
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/csg_tree.hpp"
-#include "csgcore/extent.hpp"
 
 namespace csgcore {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "csgcore/canonical_primitive.hpp"
-#include "csgcore/extent.hpp"
 #include "solid/extent_tests.hpp"
 #include "solid/operand_groups.hpp"
 #include "tree/cell_list.hpp"

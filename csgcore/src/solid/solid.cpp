@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "csgcore/geometry.hpp"
 #include "csgcore/stop_scope.hpp"
-#include "csgcore/tolerance.hpp"
 #include "solid/operand_groups.hpp"
 #include "solid/redundant_operands.hpp"
 #include "tree/cell_list.hpp"

@@ -6,8 +6,6 @@
 // Cells are classified without a margin at their sides, each half the thickness tolerance: what
 // lies between two empty cells is then thinner than the tolerance. Without it, no cell on the joint
 // of two flush operands would ever be proven to lie within their union.
-#include "csgcore/tight_bounds.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "csgcore/extent.hpp"
-#include "csgcore/tolerance.hpp"
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/solid.hpp"
 #include "solid/contraction.hpp"
 #include "solid/restriction.hpp"
 #include "tree/cell_list.hpp"

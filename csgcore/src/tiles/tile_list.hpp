@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "primitives/packet_segments.hpp"
+#include "primitives/crossings.hpp"
 #include "rays/frame_rays.hpp"
-#include "rays/make_rays.hpp"
 #include "rays/packet_blocks.hpp"
 #include "solid/operand_groups.hpp"
 #include "solid/restriction.hpp"

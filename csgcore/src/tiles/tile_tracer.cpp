@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "rays/packet_blocks.hpp"
-#include "screen/reached.hpp"
+#include "screen/screen_slab.hpp"
 #include "solid/restriction.hpp"
 
 namespace csgcore {

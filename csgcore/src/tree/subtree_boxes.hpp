@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/csg_tree.hpp"
-#include "csgcore/extent.hpp"
 #include "csgcore/geometry.hpp"
 
 namespace csgcore {

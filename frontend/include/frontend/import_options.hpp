@@ -49,7 +49,7 @@ struct ImportOptions {
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
   PictureKind picture = PictureKind::kPreview;
-  /// Find the boxes of compound leaves for the view box (csgcore/tight_bounds.hpp); otherwise it
+  /// Find the boxes of compound leaves for the view box (csgcore/solid.hpp); otherwise it
   /// may be too large there, or too small where a leaf's frame is turned.
   bool measures_leaves = true;
   /// Fill ImportedDesign::places.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "csgcore/edit_stats.hpp"
+#include "csgcore/scene_edit.hpp"
 #include "csgcore/tracer.hpp"
 
 namespace frontend {

@@ -6,7 +6,7 @@
 
 #include "base/plane_faces.hpp"
 #include "base/primitive_traits.hpp"
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/triangle_mesh.hpp"
 
 namespace frontend {

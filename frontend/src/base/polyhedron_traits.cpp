@@ -5,7 +5,7 @@
 
 #include "base/plane_faces.hpp"
 #include "base/primitive_traits.hpp"
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
 
 namespace frontend {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 
 namespace frontend {
 

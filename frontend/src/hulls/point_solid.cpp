@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "hulls/point_hull.hpp"

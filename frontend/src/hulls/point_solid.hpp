@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/primitive.hpp"
 
 namespace frontend {

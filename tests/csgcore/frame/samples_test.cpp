@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "csgcore/sample_pattern.hpp"
 #include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
 #include "frame/edge_samples.hpp"
 #include "packets/shading.hpp"
-#include "rays/make_rays.hpp"
+#include "rays/frame_rays.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
 

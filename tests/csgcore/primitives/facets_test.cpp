@@ -12,7 +12,6 @@
 #include <set>
 #include <string>
 
-#include "csgcore/half_space.hpp"
 #include "openscad_mesh.hpp"
 
 namespace csgcore {

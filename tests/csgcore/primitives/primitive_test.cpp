@@ -8,7 +8,6 @@
 
 #include "checks.hpp"
 #include "csgcore/canonical_primitive.hpp"
-#include "csgcore/extent.hpp"
 
 namespace csgcore {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "checks.hpp"
 #include "csgcore/csg_tree.hpp"
-#include "csgcore/hits.hpp"
+#include "csgcore/image.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/tracer.hpp"
 #include "primitives/intersect.hpp"

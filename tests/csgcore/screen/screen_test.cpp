@@ -11,7 +11,7 @@
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "primitives/intersect.hpp"
-#include "rays/make_rays.hpp"
+#include "rays/frame_rays.hpp"
 #include "rays/packet_blocks.hpp"
 #include "screen/screen_slab.hpp"
 #include "simd_levels.hpp"

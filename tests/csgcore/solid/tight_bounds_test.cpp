@@ -1,16 +1,14 @@
 // Tests the boxes of what operations leave, against points of the solids and against solids whose
 // box is known.
-#include "csgcore/tight_bounds.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "checks.hpp"
+#include "csgcore/geometry.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/solid.hpp"
-#include "csgcore/tolerance.hpp"
 #include "support/models.hpp"
 
 namespace csgcore {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "csgcore/sample_pattern.hpp"
+#include "csgcore/view.hpp"
 #include "solid/operand_groups.hpp"
 #include "support/models.hpp"
 #include "trace_scenes.hpp"

@@ -7,7 +7,7 @@
 
 #include "checks.hpp"
 #include "packets/packet.hpp"
-#include "rays/make_rays.hpp"
+#include "rays/frame_rays.hpp"
 #include "rays/packet_blocks.hpp"
 #include "support/models.hpp"
 #include "tiles/tile_list.hpp"

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "csgcore/facets.hpp"
-#include "csgcore/half_space.hpp"
 #include "csgcore/primitive.hpp"
 #include "kinds/local_solid.hpp"
 #include "kinds/sizes.hpp"

@@ -4,7 +4,7 @@
 // 1e-30 is a gap.
 //
 // A convex polyhedron is an intersection of half-spaces. Their doubles, and those of its
-// local→world matrix, are taken as exact (csgcore/half_space.hpp says why), so that its facets are
+// local→world matrix, are taken as exact (csgcore/facets.hpp says why), so that its facets are
 // plane and its vertices are rationals. So are the doubles of a mesh's vertices.
 #pragma once
 
@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "csgcore/csg_tree.hpp"
-#include "csgcore/half_space.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/primitive.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/triangle_mesh.hpp"
