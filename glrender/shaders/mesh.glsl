@@ -5,7 +5,7 @@
 // by the same comparison. So the crossings of a closed mesh cancel on every ray, however the
 // products were rounded.
 
-uniform samplerBuffer u_meshes;  // see mesh_texels.hpp
+uniform samplerBuffer u_meshes;  // see shape_texels.hpp
 
 // A ray further from the canonical origin misses the mesh, which lies in the unit ball. The excess
 // is far more than the rounding of the ray's distance.

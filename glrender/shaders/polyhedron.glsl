@@ -1,6 +1,6 @@
 // The convex polyhedron: its enclosure, cut by its faces (csgcore/polyhedron.hpp).
 
-uniform samplerBuffer u_polyhedra;  // see polyhedron_texels.hpp
+uniform samplerBuffer u_polyhedra;  // see shape_texels.hpp
 
 // Cuts the segment by the faces. A face's number is its texel in u_polyhedra. It is noted even if
 // rounding puts the face beyond the enclosure's own end.

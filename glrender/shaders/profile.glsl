@@ -6,7 +6,7 @@
 // number of times, if its ends lie on different sides. So the crossings of a loop cancel on every
 // ray, whatever was rounded.
 
-uniform samplerBuffer u_profiles;  // see profile_texels.hpp
+uniform samplerBuffer u_profiles;  // see shape_texels.hpp
 
 const int PIECE_TEXELS = 3;
 

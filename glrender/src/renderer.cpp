@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <glm/vector_relational.hpp>
@@ -16,15 +17,25 @@
 #include "csgcore/triangle_mesh.hpp"
 #include "csgcore/view.hpp"
 #include "frame.hpp"
-#include "glrender/stopwatch.hpp"
 #include "render_target.hpp"
 #include "solid_buffers.hpp"
 #include "stream_drawer.hpp"
-#include "tile_instances.hpp"
 #include "traversal.hpp"
 
 namespace glrender {
 namespace {
+
+class Stopwatch {
+ public:
+  /// ms since the last call, or since construction.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 using csgcore::BlistTest;
 using csgcore::Image;

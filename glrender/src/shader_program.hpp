@@ -7,8 +7,8 @@
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
 #include "glrender/frame_settings.hpp"
-#include "kind_set.hpp"
 #include "shader_constants.hpp"
+#include "shader_kinds.hpp"
 
 namespace glrender {
 

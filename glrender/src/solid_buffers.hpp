@@ -10,10 +10,8 @@
 #include "csgcore/solid.hpp"
 #include "frame.hpp"
 #include "gl_object.hpp"
-#include "kind_set.hpp"
-#include "mesh_texels.hpp"
-#include "polyhedron_texels.hpp"
-#include "profile_texels.hpp"
+#include "shader_kinds.hpp"
+#include "shape_texels.hpp"
 
 namespace glrender {
 

@@ -1,10 +1,12 @@
-// Turns the leaves of the kd-tree, front to back (paper §2.3), into instances for the GPU.
+// Turns the leaves of the kd-tree, front to back (paper §2.3), or the tiles of the screen into
+// instances for the GPU.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "csgcore/subdivision.hpp"
+#include "csgcore/tile_lists.hpp"
 #include "frame.hpp"
 #include "shader_constants.hpp"
 
@@ -81,5 +83,13 @@ PackedTests pack_tests(const csgcore::Subdivision& subdivision);
 void traverse_front_to_back(const csgcore::Subdivision& subdivision,
                             std::span<const uint64_t> first_test, const Frame& frame,
                             InstanceSorter& sorter);
+
+/// Throws ListsTooLong.
+[[noreturn]] void refuse_lists();
+
+/// Adds all tiles to the front faces, each by the path of its list. `eye_inside` means what it
+/// means in InstanceSorter. Throws ListsTooLong. Precondition: no list is longer than kLongList.
+void add_tiles(const csgcore::TileLists& lists, const Frame& frame, const csgcore::Solid& solid,
+               bool eye_inside, InstanceStreams& streams);
 
 }  // namespace glrender

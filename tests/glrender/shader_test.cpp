@@ -16,10 +16,8 @@
 #include "csgcore/profile.hpp"
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
-#include "mesh_texels.hpp"
-#include "polyhedron_texels.hpp"
-#include "profile_texels.hpp"
 #include "shader_program.hpp"
+#include "shape_texels.hpp"
 #include "support/full_run.hpp"
 #include "support/test_meshes.hpp"
 
