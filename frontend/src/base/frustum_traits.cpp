@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/plane_faces.hpp"
-#include "base/polygon_box.hpp"
 #include "base/primitive_traits.hpp"
 
 namespace frontend {

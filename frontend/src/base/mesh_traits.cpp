@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "base/plane_faces.hpp"
 #include "base/primitive_traits.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/triangle_mesh.hpp"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/plane_faces.hpp"
 #include "base/primitive_traits.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
@@ -15,7 +17,40 @@
 
 namespace frontend {
 
-struct PlaneFaces;
+/// Healing compares the plane faces of solids. A solid with more than so many is taken for curved:
+/// none of its faces is compared.
+constexpr uint32_t kMostComparedFaces = 32;
+
+/// A face in local coordinates.
+struct PlaneFace {
+  csgcore::Vec3 center;  // a point of the plane amid the corners
+  csgcore::Vec3 normal;  // unit; it may point outwards or inwards
+  /// The face that is parallel to this one, in every affine image.
+  std::optional<uint32_t> opposite;
+  /// The face's corners among those of all faces: three or more points that span it. An apex has
+  /// none. It is compared with nothing, but may be the opposite of a face.
+  uint32_t first_corner = 0, corner_count = 0;
+};
+
+/// A solid's faces, numbered from 0; at most kMostComparedFaces.
+struct PlaneFaces {
+  std::vector<PlaneFace> faces;
+  std::vector<csgcore::Vec3> corners;
+
+  std::span<const csgcore::Vec3> corners_of(const PlaneFace& face) const {
+    return std::span(corners).subspan(face.first_corner, face.corner_count);
+  }
+  void clear() {
+    faces.clear();
+    corners.clear();
+  }
+};
+
+/// Two unit vectors are parallel if their cross product is no longer than this. It is far above the
+/// rounding of doubles and far below that of six digits. A vector this near to a plane stays in it
+/// under the moves of healing, which are of the order of 1e-6.
+constexpr double kParallel = 1e-9;
+bool parallel(const csgcore::Vec3& unit_a, const csgcore::Vec3& unit_b);
 
 /// OpenSCAD's facets of a primitive are those of `unit`, stretched along the local axes and moved:
 /// x ↦ origin + size · x, by coordinate. Primitives with the same `unit` share their facets.
@@ -76,5 +111,19 @@ class PrimitiveTraits {
 };
 
 const PrimitiveTraits& traits_of(csgcore::Shape shape);
+
+/// Designs from 2^-300 to 2^300 across (1e-90 to 1e90) are drawn. The determinant of their
+/// matrices, a product of three factors, stays well within the range of doubles.
+constexpr int kLargestExponent = 300;
+
+/// Returns a bound of the primitive's extents, from its local size and its matrix without the
+/// translation. It is inf beyond the range of doubles, and 0 if all extents vanish. Preconditions:
+/// the shape is valid (csgcore::has_valid_shape), and the matrix finite.
+double size_of(const csgcore::Primitive& primitive);
+
+/// Returns the box of the regular polygon with `fragments` (≥ 3) vertices on the unit circle, the
+/// first at (1, 0), as OpenSCAD's circle has them; its z is 0. A call with the same number as the
+/// thread's last one computes nothing. The reference is valid until the thread's next call.
+const csgcore::Box& unit_polygon_box(int fragments);
 
 }  // namespace frontend

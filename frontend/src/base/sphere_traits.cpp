@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/polygon_box.hpp"
 #include "base/primitive_traits.hpp"
 
 namespace frontend {

@@ -1,18 +1,66 @@
 // DXF as plane figures.
+
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/angles.hpp"
 #include "drawings/curve_path.hpp"
-#include "drawings/disjoint_figures.hpp"
 #include "drawings/drawing.hpp"
-#include "drawings/dxf_paths.hpp"
+#include "language/dxf_chains.hpp"
 #include "plane/outlines.hpp"
 
 namespace frontend {
 namespace {
+
+Vec2 vec2(const language::DxfPoint& point) { return {point.x, point.y}; }
+language::DxfPoint dxf_point(const Vec2& point) { return {point.x, point.y}; }
+EllipseArc ellipse_arc(const language::DxfArc& arc) {
+  return {vec2(arc.center), vec2(arc.u), vec2(arc.v), arc.start, arc.sweep};
+}
+
+/// A line, or an arc, between two points.
+struct DxfStroke {
+  Vec2 start{0.0};
+  Vec2 end{0.0};
+  std::optional<EllipseArc> arc{};
+};
+
+/// Joins strokes as language::DxfChains does.
+class DxfPaths {
+ public:
+  /// An arc between two equal points becomes a line. Others are moved so that they end on the grid.
+  /// All coordinates must be at most kFarthest.
+  void add(const DxfStroke& stroke);
+
+  /// Returns the chains, each a path to be closed by a line. Their arcs are what they were.
+  std::vector<CurvePath> join();
+
+ private:
+  using Step = language::DxfChains::Step;
+
+  Vec2 place(uint32_t point) const { return vec2(chains_.place(point)); }
+  void add_step(const Step& from, const Step& to, CurvePath& path) const;
+
+  language::DxfChains chains_;
+  std::vector<std::optional<EllipseArc>> arcs_;  // by link
+};
+
+/// The similar map that takes two points to two others; the first two differ.
+PlaneMap map_of_points(const Vec2& a, const Vec2& b, const Vec2& to_a, const Vec2& to_b) {
+  const Vec2 from = b - a;
+  const Vec2 to = to_b - to_a;
+  const double size = glm::dot(from, from);
+  const double c = glm::dot(from, to) / size;
+  const double s = cross(from, to) / size;
+  PlaneMap map;
+  map.linear = glm::dmat2(c, s, -s, c);
+  map.translation = to_a - map.linear * a;
+  return map;
+}
 
 /// A message need not hold all of a long line.
 std::string shortened(std::string_view word) {
@@ -181,6 +229,33 @@ class DxfReader {
 };
 
 }  // namespace
+
+void DxfPaths::add(const DxfStroke& stroke) {
+  const uint32_t link = chains_.add(dxf_point(stroke.start), dxf_point(stroke.end));
+  const auto& [start, end] = chains_.ends(link);
+  arcs_.emplace_back();
+  if (!stroke.arc || start == end) return;
+  const PlaneMap map = map_of_points(stroke.start, stroke.end, place(start), place(end));
+  arcs_.back() = mapped(map, *stroke.arc);
+}
+
+void DxfPaths::add_step(const Step& from, const Step& to, CurvePath& path) const {
+  if (from.point == to.point) return;
+  const Vec2 end = place(to.point);
+  const std::optional<EllipseArc>& arc = arcs_[to.link];
+  if (!arc) return path.line_to(end);
+  const bool is_forward = chains_.ends(to.link)[0] == from.point;
+  path.arc_to(is_forward ? *arc : reversed(*arc), 1, end);
+}
+
+std::vector<CurvePath> DxfPaths::join() {
+  std::vector<CurvePath> paths;
+  for (const language::DxfChains::Chain& chain : chains_.join()) {
+    CurvePath& path = paths.emplace_back(place(chain.front().point));
+    for (size_t i = 1; i < chain.size(); ++i) add_step(chain[i - 1], chain[i], path);
+  }
+  return paths;
+}
 
 Drawing read_dxf(std::string_view bytes, const std::string& name, const DxfSettings& settings) {
   return DxfReader(name, settings).read(bytes);

@@ -20,6 +20,8 @@
 // - center puts the middle of the drawing's box at minus the view box's corner.
 // - With --facets=all, a circle has 40 chords, a Bézier curve 20 and an arc of a degrees ⌊a/18⌋ +
 //   4, whatever $fn is.
+#include "drawings/svg.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -29,11 +31,7 @@
 
 #include "base/angles.hpp"
 #include "drawings/curve_path.hpp"
-#include "drawings/disjoint_figures.hpp"
 #include "drawings/drawing.hpp"
-#include "drawings/svg_numbers.hpp"
-#include "drawings/svg_page.hpp"
-#include "drawings/svg_path.hpp"
 #include "plane/offset.hpp"
 #include "plane/outlines.hpp"
 

@@ -1,5 +1,3 @@
-#include "drawings/svg_page.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,7 +6,7 @@
 #include <vector>
 
 #include "base/angles.hpp"
-#include "drawings/svg_numbers.hpp"
+#include "drawings/svg.hpp"
 
 namespace frontend {
 namespace {

@@ -1,5 +1,3 @@
-#include "drawings/svg_path.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <optional>
 
 #include "base/angles.hpp"
-#include "drawings/svg_numbers.hpp"
+#include "drawings/svg.hpp"
 
 namespace frontend {
 namespace {

@@ -1,4 +1,4 @@
-// A font, opened: the shaping of text by HarfBuzz, and the glyphs by FreeType.
+// A font, opened: the shaping of text by HarfBuzz, and the outlines of glyphs by FreeType.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,52 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/profile.hpp"
 #include "fonts/font_libraries.hpp"
-#include "fonts/glyph_shape.hpp"
-#include "fonts/text_run.hpp"
 #include "frontend/file_text.hpp"
+#include "plane/figure.hpp"
 
 namespace frontend {
+
+/// What a text node says of its letters. An empty word means that it says nothing.
+struct TextLetters {
+  std::string text;  // in UTF-8
+  std::string direction, script, language;
+};
+
+/// A text as HarfBuzz takes it: its letters, and how they run.
+struct TextRun {
+  std::vector<uint32_t> letters;  // code points
+  hb_direction_t direction = HB_DIRECTION_LTR;
+  hb_script_t script = HB_SCRIPT_UNKNOWN;
+  hb_language_t language = nullptr;
+
+  bool is_vertical() const { return HB_DIRECTION_IS_VERTICAL(direction); }
+};
+
+/// Returns the letters, with the script that all of them share, where none is given, and the
+/// direction of the script (text_layout.hpp). Bytes that are no UTF-8 are replaced.
+TextRun run_of(const FontLibraries& libraries, const TextLetters& text);
+
+/// Fonts are opened at this size in points, so that an outline has this many units for each unit of
+/// a text's `size` (text_layout.hpp).
+constexpr double kOutlineUnits = 1e5;
+
+/// A glyph's outline, in units of 1/kOutlineUnits, about its origin. It has the font's windings,
+/// and is filled where they are not 0.
+struct GlyphShape {
+  std::shared_ptr<const Figure> figure;             // null: the glyph has no ink
+  std::shared_ptr<const csgcore::Profile> profile;  // of the figure
+};
+
+/// Returns the outline. `pieces` 0: its curves are kept, those of the third degree as quadratic
+/// ones that are off by kCubicTolerance at most. Else each curve becomes that many chords, at equal
+/// steps of its parameter.
+GlyphShape shape_of(const FontLibraries& libraries, FT_Outline& outline, int pieces);
+
+/// Fonts' control points are rounded to whole units, and so are the curves themselves good to half
+/// a unit: 4e-6 of the letters' height, far below a pixel.
+constexpr double kCubicTolerance = 0.5;
 
 /// A glyph of a shaped text. Offset and advance are in outlines' units, and unhinted.
 struct ShapedGlyph {

@@ -27,7 +27,6 @@
 #include <vector>
 
 #include "fonts/font_face.hpp"
-#include "fonts/text_run.hpp"
 #include "plane/plane_map.hpp"
 
 namespace frontend {

@@ -1,7 +1,7 @@
-#include "fonts/text_run.hpp"
-
 #include <array>
 #include <string_view>
+
+#include "fonts/font_face.hpp"
 
 namespace frontend {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "base/plane_faces.hpp"
+#include "base/primitive_traits.hpp"
 #include "csgcore/primitive.hpp"
 
 namespace frontend {

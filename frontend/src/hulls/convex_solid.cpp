@@ -1,5 +1,3 @@
-#include "hulls/convex_solid.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,10 +7,10 @@
 #include <utility>
 
 #include "csgcore/profile.hpp"
-#include "hulls/ball_hull.hpp"
-#include "hulls/disc_hull.hpp"
+#include "hulls/generator.hpp"
 #include "hulls/orthonormal.hpp"
 #include "hulls/point_solid.hpp"
+#include "hulls/round_bodies.hpp"
 #include "hulls/strips.hpp"
 #include "plane/hull.hpp"
 

@@ -1,10 +1,14 @@
-// Convex bodies as the hulls of a few simple ones.
+// Convex bodies as the hulls of a few simple ones: from primitives to generators (support_set.cpp),
+// and from these to primitives (convex_solid.cpp).
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+#include "plane/figure.hpp"
 
 namespace frontend {
 
@@ -75,5 +79,32 @@ struct GeneratorSum {
 };
 /// Returns nothing if they would be too many.
 std::optional<GeneratorSum> minkowski_sum(const Generators& a, const Generators& b);
+
+/// Generators of what primitives span, and whether points stand for curves among them.
+struct SupportSet {
+  Generators generators;
+  bool is_faceted = false;
+};
+
+/// Adds generators of the primitive's hull, under its matrix. Its shape is valid; its matrix may be
+/// singular.
+void add_support(const csgcore::Primitive& primitive, SupportSet& support);
+
+/// Returns whether the primitive is known to be convex.
+bool is_convex(const csgcore::Primitive& primitive);
+
+/// Returns whether the loop is the boundary, counterclockwise, of a convex figure of lines and
+/// arcs.
+bool is_convex_loop(const csgcore::ProfileLoop& loop);
+
+/// Primitives whose union is a convex body. Each lies within it, up to rounding.
+struct ConvexSolid {
+  std::vector<csgcore::Primitive> pieces;
+  bool is_faceted = false;  // facets, finer than a pixel, stand for something round
+};
+
+/// Returns the hull of finite generators. It is empty if they lie on a line, and a thin sheet if
+/// they lie in a plane.
+ConvexSolid convex_solid(const Generators& generators);
 
 }  // namespace frontend

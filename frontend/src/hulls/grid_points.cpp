@@ -1,8 +1,8 @@
-#include "hulls/grid_points.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "hulls/point_hull.hpp"
 
 namespace frontend {
 namespace {

@@ -1,4 +1,4 @@
-// The convex hull of points as a primitive.
+// Convex polyhedra, each the hull of points: as primitives, and what set operations leave of them.
 #pragma once
 
 #include <optional>
@@ -24,5 +24,20 @@ std::optional<PointSolid> solid_of_points(std::span<const csgcore::Vec3> points)
 
 /// Returns the half-spaces whose intersection is the hull; none if it has no volume.
 std::vector<csgcore::HalfSpace> faces_of(std::span<const csgcore::Vec3> points);
+
+/// Points whose hull is a convex polyhedron. Without any it is empty.
+using Corners = std::vector<csgcore::Vec3>;
+
+/// Returns what of the hull lies in the half-space; nothing if that has no volume. A corner that
+/// lies on the plane, up to rounding, is on either side.
+Corners cut(const Corners& corners, const csgcore::HalfSpace& half_space);
+
+/// Returns what of the hull lies in all half-spaces.
+Corners intersection(const Corners& corners, std::span<const csgcore::HalfSpace> half_spaces);
+
+/// Returns convex polyhedra that together are the hull without the intersection of the half-spaces.
+/// They touch each other.
+std::vector<Corners> difference(const Corners& corners,
+                                std::span<const csgcore::HalfSpace> half_spaces);
 
 }  // namespace frontend

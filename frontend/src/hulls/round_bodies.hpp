@@ -1,10 +1,13 @@
-// Round bodies whose hull is wanted, and which of them can have a part in it.
+// Round bodies whose hull is wanted, which of them can have a part in it, and their hulls
+// (round_hulls.cpp).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
 
 namespace frontend {
 
@@ -36,5 +39,37 @@ RoundBodies without_inner_bodies(std::vector<RoundBody> bodies, BodyKind kind);
 /// Adds a direction unless one is there that is so near that a tangent point there serves as well:
 /// the point moves out of its plane by the square of that.
 void add_direction(const csgcore::Vec3& direction, std::vector<csgcore::Vec3>& directions);
+
+/// Adds primitives whose union is the convex hull of balls and points: the polyhedron of the points
+/// where planes touch three balls from outside, the frusta that touch two balls, and balls. Each
+/// lies within the hull, up to rounding, so that one too many does no harm. Nothing if all are
+/// points on a line; of points in a plane a thin sheet. Where the arc at which a plane rolls around
+/// two balls is below `least_strip` (radians), there is no frustum. Returns false, and adds some
+/// pieces only, if the search for them takes too long (kMostStripSteps).
+[[nodiscard]] bool add_ball_hull(std::vector<RoundBody> balls, double least_strip,
+                                 std::vector<csgcore::Primitive>& pieces);
+
+/// The convex hull of parallel discs and points is the union of that of the points and of the
+/// oblique frusta between two discs: each section across z is, since its arcs belong to frusta and
+/// its straight sides to the polyhedron of the points.
+struct DiscHull {
+  std::vector<RoundBody> discs;
+  /// Where planes touch three discs, and the discs that are points.
+  std::vector<csgcore::Vec3> points;
+  struct Pair {
+    uint32_t lower, upper;  // of `discs`, at different heights
+  };
+  std::vector<Pair> frusta;
+
+  csgcore::Primitive frustum(const Pair& pair) const;
+};
+
+/// The discs are parallel to the plane z = 0. Their hull must be a solid: they are not all at one
+/// height. Returns nothing if the search takes too long (kMostStripSteps).
+std::optional<DiscHull> disc_hull(std::vector<RoundBody> discs);
+
+/// Adds primitives whose union is the hull, as add_ball_hull() does.
+[[nodiscard]] bool add_disc_hull(std::vector<RoundBody> discs,
+                                 std::vector<csgcore::Primitive>& pieces);
 
 }  // namespace frontend

@@ -1,5 +1,3 @@
-#include "hulls/support_set.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,6 +7,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
+#include "hulls/generator.hpp"
 
 namespace frontend {
 namespace {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
-#include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
 #include "frontend/stop.hpp"
 #include "hulls/point_hull.hpp"

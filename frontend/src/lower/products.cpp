@@ -81,14 +81,14 @@ class Multiplier {
   /// Finds out whether each token stands under an odd number of subtractions.
   void find_signs(std::span<const CsgToken> tokens) {
     is_subtracted_.assign(tokens.size(), false);
-    struct Open {
+    struct Operation {
       size_t token;
       uint32_t operands_left;  // the last operand comes first
     };
-    std::vector<Open> open;
+    std::vector<Operation> open;
     for (size_t i = tokens.size(); i-- > 0;) {
       if (!open.empty()) {
-        const Open& parent = open.back();
+        const Operation& parent = open.back();
         const bool is_later =
             tokens[parent.token].op == Op::kDifference && parent.operands_left > 1;
         is_subtracted_[i] = is_subtracted_[parent.token] != is_later;

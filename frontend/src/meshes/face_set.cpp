@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -143,6 +144,33 @@ Vec3 area_vector(std::span<const Vec3> points, std::span<const uint32_t> corners
   return sum;
 }
 
+/// A share of a body's size: points that are no further from a plane lie in it. The rounding of
+/// turned points is some 2^-50, and a solid is thicker than the thinnest piece that is drawn,
+/// 1e-9 of the size.
+constexpr double kRoundingOfSize = 0x1p-40;
+
+Vec3 area_of(std::span<const Vec3> points, const Triangle& t) {
+  return glm::cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
+}
+
+/// Returns those of which each other triangle is the reverse; empty if one has no reverse.
+std::vector<Triangle> one_of_each_pair(std::span<const Triangle> triangles) {
+  std::map<Triangle, int> sums;  // by sorted corners
+  std::vector<Triangle> result;
+  for (const Triangle& triangle : triangles) {
+    Triangle corners = triangle;
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const bool is_turned = corners[1] > corners[2];
+    if (is_turned) std::swap(corners[1], corners[2]);
+    const auto [entry, is_new] = sums.try_emplace(corners, 0);
+    entry->second += is_turned ? -1 : 1;
+    if (is_new) result.push_back(triangle);
+  }
+  const bool is_paired =
+      std::all_of(sums.begin(), sums.end(), [](const auto& entry) { return entry.second == 0; });
+  return is_paired ? result : std::vector<Triangle>();
+}
+
 }  // namespace
 
 std::span<const uint32_t> FaceSet::face(size_t index) const {
@@ -238,6 +266,64 @@ std::vector<Triangle> triangles_of(const FaceSet& faces) {
     triangulate(face, places, triangles);
   }
   return triangles;
+}
+
+FaceSet face_set_of(RingedFaces faces) {
+  FaceSet result;
+  result.points = std::move(faces.points);
+  std::vector<uint32_t> corners, ends;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<glm::dvec2> places;
+  uint32_t ring = 0;
+  for (const uint32_t face_end : faces.face_ends) {
+    corners.clear();
+    ends.clear();
+    for (; ring < face_end; ++ring) {
+      const std::span<const uint32_t> of_ring = faces.ring(ring);
+      corners.insert(corners.end(), of_ring.begin(), of_ring.end());
+      ends.push_back(static_cast<uint32_t>(corners.size()));
+    }
+    if (ends.size() == 1) {
+      result.corners.insert(result.corners.end(), corners.begin(), corners.end());
+      result.end_face();
+      continue;
+    }
+    if (corners.empty()) continue;
+    triangles.clear();
+    project(result.points, corners, ends, places);
+    triangulate_all(corners, ends, places, triangles);
+    for (const auto& triangle : triangles) {
+      result.corners.insert(result.corners.end(), triangle.begin(), triangle.end());
+      result.end_face();
+    }
+  }
+  return result;
+}
+
+std::vector<Triangle> sheet_of(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  if (triangles.empty()) return {};
+  csgcore::Box box;
+  for (const Vec3& point : points) box.merge(point);
+  const double size = glm::length(box.size());
+  double volume = 0, largest_area = 0;
+  Vec3 normal(0.0);
+  for (const Triangle& t : triangles) {
+    const Vec3 area = area_of(points, t);
+    volume += glm::dot(points[t[0]] - box.min, area);
+    const double length = glm::length(area);
+    if (length > largest_area) normal = area / (largest_area = length);
+  }
+  if (!(std::abs(volume) <= kRoundingOfSize * size * size * size)) return {};
+  const double height = glm::dot(points[triangles.front()[0]], normal);
+  const bool is_plane = std::all_of(points.begin(), points.end(), [&](const Vec3& point) {
+    return std::abs(glm::dot(point, normal) - height) <= kRoundingOfSize * size;
+  });
+  if (!is_plane) return one_of_each_pair(triangles);
+  std::vector<Triangle> result;
+  for (const Triangle& t : triangles) {
+    if (glm::dot(area_of(points, t), normal) > 0) result.push_back(t);
+  }
+  return result;
 }
 
 }  // namespace frontend

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,19 @@
 #include "meshes/face_set.hpp"
 
 namespace frontend {
+
+/// The luminance of a PNG picture, 0 to 255.
+struct GrayPicture {
+  size_t columns = 0, rows = 0;
+  std::vector<double> values;  // row by row from the top
+};
+
+bool is_png(std::string_view bytes);
+
+/// Reads a picture of any type and depth, which begins as one (is_png()); transparency is ignored.
+/// Returns nothing if it is damaged
+/// or has more than `most_pixels`.
+std::optional<GrayPicture> read_gray_png(std::string_view bytes, size_t most_pixels);
 
 /// Heights over a grid of unit cells. Row 0 is at y = 0.
 struct HeightMap {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/primitive_size.hpp"
+#include "base/primitive_traits.hpp"
 #include "frontend/error.hpp"
 
 namespace frontend {

@@ -14,7 +14,6 @@
 #include "base/elapsed.hpp"
 #include "base/growing_text.hpp"
 #include "frontend/stop.hpp"
-#include "meshes/nef_text.hpp"
 #include "meshes/read_solid_file.hpp"
 #include "process/child_process.hpp"
 #include "process/memory_file.hpp"

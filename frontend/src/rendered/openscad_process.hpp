@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "meshes/ringed_faces.hpp"
+#include "meshes/face_set.hpp"
 
 namespace frontend {
 

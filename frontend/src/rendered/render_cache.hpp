@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "meshes/ringed_faces.hpp"
+#include "meshes/face_set.hpp"
 
 namespace frontend {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frontend/rendering_options.hpp"
-#include "meshes/ringed_faces.hpp"
+#include "meshes/face_set.hpp"
 
 namespace frontend {
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "hulls/convex_solid.hpp"
+#include "hulls/generator.hpp"
 
 namespace frontend {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/lower_case.hpp"
-#include "base/primitive_size.hpp"
+#include "base/primitive_traits.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "meshes/height_map.hpp"

@@ -12,7 +12,7 @@
 
 #include "base/hashes.hpp"
 #include "csgcore/stop_scope.hpp"
-#include "meshes/sheet_faces.hpp"
+#include "meshes/face_set.hpp"
 
 namespace frontend {
 namespace {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "base/primitive_size.hpp"
+#include "base/primitive_traits.hpp"
 #include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
-#include "hulls/convex_solid.hpp"
+#include "hulls/generator.hpp"
 #include "hulls/orthonormal.hpp"
 #include "solids/leaves.hpp"
 #include "solids/triangles_of.hpp"

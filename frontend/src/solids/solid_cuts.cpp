@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "csgcore/stop_scope.hpp"
-#include "hulls/convex_cuts.hpp"
 #include "hulls/point_solid.hpp"
 
 namespace frontend {

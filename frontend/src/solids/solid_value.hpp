@@ -10,7 +10,6 @@
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
 #include "hulls/generator.hpp"
-#include "hulls/support_set.hpp"
 
 namespace frontend {
 

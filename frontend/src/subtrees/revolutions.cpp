@@ -13,6 +13,7 @@
 #include "language/degrees.hpp"
 #include "meshes/sheet_faces.hpp"
 #include "solids/faceted_box.hpp"
+#include "meshes/face_set.hpp"
 
 namespace frontend {
 namespace {

@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-#include "base/plane_faces.hpp"
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "support/kinds/test_kind.hpp"

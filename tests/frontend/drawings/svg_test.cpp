@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "drawings/disjoint_figures.hpp"
 #include "drawings/drawing.hpp"
 #include "plane/figure_area.hpp"
 

@@ -1,6 +1,4 @@
 // Set operations on convex polyhedra.
-#include "hulls/convex_cuts.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

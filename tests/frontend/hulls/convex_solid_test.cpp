@@ -1,6 +1,4 @@
 // The hulls of points, balls and discs, and their sums, against support functions.
-#include "hulls/convex_solid.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <iostream>
 #include <random>
 
+#include "hulls/generator.hpp"
 #include "hulls/hull_support.hpp"
 #include "hulls/orthonormal.hpp"
 #include "support/full_run.hpp"

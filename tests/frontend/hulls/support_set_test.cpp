@@ -1,11 +1,10 @@
 // What convex bodies primitives span.
-#include "hulls/support_set.hpp"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "csgcore/profile.hpp"
+#include "hulls/generator.hpp"
 #include "hulls/hull_support.hpp"
 #include "plane/hull.hpp"
 

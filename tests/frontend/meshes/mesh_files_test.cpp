@@ -13,7 +13,6 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "frontend/files.hpp"
-#include "meshes/gray_png.hpp"
 #include "meshes/height_map.hpp"
 #include "meshes/read_solid_file.hpp"
 #include "meshes/zip_archive.hpp"

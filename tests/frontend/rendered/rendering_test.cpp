@@ -21,6 +21,7 @@
 #include "frontend/stop.hpp"
 #include "subtrees/render_text.hpp"
 #include "meshes/nef_text.hpp"
+#include "meshes/read_solid_file.hpp"
 #include "rendered/render_cache.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "hulls/circle_arcs.hpp"
+#include "hulls/strips.hpp"
 
 #include <algorithm>
 #include <cmath>
