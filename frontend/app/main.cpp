@@ -1,7 +1,6 @@
 // The programs `scadray`, which draws by the CPU, and `scadray-gl`, which scadray executes where
 // OpenGL may draw: OpenGL's loader takes a tenth of a start.
 #include "frontend/command.hpp"
-#include "frontend/gl_program.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/render.hpp"
 

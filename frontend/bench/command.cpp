@@ -7,7 +7,6 @@
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
-#include "frontend/progress.hpp"
 #include "frontend/run_program.hpp"
 #include "frontend/terminal.hpp"
 #include "measurement.hpp"

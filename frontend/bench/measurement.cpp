@@ -7,7 +7,7 @@
 
 #include "base/elapsed.hpp"
 #include "frontend/scene_renderer.hpp"
-#include "render/gl_renderer.hpp"
+#include "render/solid_renderer.hpp"
 
 namespace bench {
 namespace {

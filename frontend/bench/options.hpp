@@ -8,7 +8,7 @@
 
 #include "command/option_row.hpp"
 #include "frontend/camera.hpp"
-#include "frontend/evaluator.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/importer.hpp"
 #include "measurement.hpp"
 

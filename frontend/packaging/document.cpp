@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "bench/options.hpp"
-#include "command/option_table.hpp"
+#include "command/option_row.hpp"
 #include "program.hpp"
 #include "validate/options.hpp"
 

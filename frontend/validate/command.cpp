@@ -13,7 +13,6 @@
 #include "frontend/files.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/parser.hpp"
-#include "frontend/progress.hpp"
 #include "frontend/run_program.hpp"
 #include "frontend/terminal.hpp"
 #include "language/evaluation.hpp"

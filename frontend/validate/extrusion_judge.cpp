@@ -19,7 +19,7 @@
 #include "subtrees/node_row.hpp"
 #include "ray_judge.hpp"
 #include "render/scene_scale.hpp"
-#include "rendered/openscad_process.hpp"
+#include "rendered/rendering.hpp"
 #include "samples.hpp"
 
 namespace validation {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "command/option_row.hpp"
-#include "frontend/evaluator.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/importer.hpp"
 #include "validation.hpp"
 

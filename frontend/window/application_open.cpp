@@ -4,7 +4,7 @@
 
 #include "application.hpp"
 #include "memory.hpp"
-#include "process/start_program.hpp"
+#include "process/spawn.hpp"
 
 namespace window {
 

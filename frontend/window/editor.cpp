@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "process/start_program.hpp"
+#include "process/spawn.hpp"
 
 namespace window {
 namespace {

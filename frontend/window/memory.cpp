@@ -13,9 +13,9 @@
 #include <string_view>
 #include <utility>
 
-#include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace window {
 namespace {

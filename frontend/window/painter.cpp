@@ -8,7 +8,7 @@
 
 #include "base/elapsed.hpp"
 #include "csgcore/stop_scope.hpp"
-#include "frontend/channel_picture.hpp"
+#include "frontend/picture_file.hpp"
 #include "section_plane.hpp"
 #include "snap.hpp"
 

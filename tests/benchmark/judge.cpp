@@ -34,8 +34,8 @@
 #include "csgcore/solid.hpp"
 #include "frontend/camera.hpp"
 #include "frontend/design_file.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/error.hpp"
-#include "frontend/evaluator.hpp"
 #include "frontend/render.hpp"
 #include "povray/povray.hpp"
 

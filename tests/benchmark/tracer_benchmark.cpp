@@ -13,7 +13,7 @@
 #include "base/simd.hpp"
 #include "frame.hpp"
 #include "frontend/design_file.hpp"
-#include "frontend/evaluator.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/importer.hpp"
 #include "support/models.hpp"
 

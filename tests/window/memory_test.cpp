@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "frontend/color_scheme.hpp"
+#include "frontend/render_settings.hpp"
 #include "temporary_folder.hpp"
 
 namespace window {

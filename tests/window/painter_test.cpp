@@ -14,10 +14,10 @@
 
 #include "designs.hpp"
 #include "follow/followed.hpp"
-#include "frontend/channel_picture.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/parser.hpp"
+#include "frontend/picture_file.hpp"
 #include "frontend/render.hpp"
 #include "support/models.hpp"
 

@@ -1,20 +1,49 @@
-// How a design's file is read.
+// How a design's file is read: by which program, with which inputs, and who is told.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "frontend/design_inputs.hpp"
-#include "frontend/design_message.hpp"
-#include "frontend/evaluator.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/import_options.hpp"
+#include "frontend/source_place.hpp"
 #include "language/evaluation.hpp"
+#include "language/parameter_value.hpp"
 
 namespace frontend {
+
+/// Which program evaluates a .scad.
+enum class Evaluator : uint8_t {
+  kOwn,       // frontend/language
+  kOpenScad,  // the installed openscad
+};
+
+/// What the command has a design evaluated by unless --evaluator says otherwise.
+constexpr Evaluator kDefaultEvaluator = Evaluator::kOwn;
+
+/// What a .scad is evaluated with, besides its files and OpenSCAD's options.
+struct DesignInputs {
+  /// In place of the parameter set that -p and -P name.
+  std::optional<language::ParameterSet> parameters;
+  /// $t. Openscad takes it by -D, behind the assignments of the design's own top level.
+  std::optional<double> time;
+
+  bool operator==(const DesignInputs&) const = default;
+};
+
+/// A line that the evaluation of a design says.
+struct DesignMessage {
+  const std::string& text;
+  SourcePlace place{};         // that the text names; line 0: none, or the text alone tells it
+  bool follows_error = false;  // it was said after the ERROR that ends the reading
+  operator const std::string&() const { return text; }
+};
+
+using DesignMessageSink = std::function<void(const DesignMessage&)>;
 
 struct DesignFileOptions {
   ImportOptions import;

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "frontend/activity.hpp"
-#include "frontend/design_inputs.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/design_version.hpp"
-#include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
 
 namespace frontend {

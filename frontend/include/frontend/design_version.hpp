@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
-#include "frontend/design_inputs.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/design_tree.hpp"
 #include "frontend/imported_design.hpp"
 #include "frontend/source_place.hpp"

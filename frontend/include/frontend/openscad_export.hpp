@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/design_message.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/file_text.hpp"
 
 namespace frontend {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
-#include "frontend/evaluator.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/overlays.hpp"

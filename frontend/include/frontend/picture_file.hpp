@@ -1,4 +1,5 @@
-// Image → the bytes of a picture file (frontend/OPTIONS.md, "What is written").
+// What is written of an image (frontend/OPTIONS.md): a channel of it as a picture, and the bytes of
+// the file.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "csgcore/image.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 
@@ -21,6 +23,14 @@ Bytes encode_exr(const csgcore::Image& image);
 
 enum class PictureFormat : uint8_t { kPng, kExr };
 
-Bytes encode_picture(const csgcore::Image& image, PictureFormat format);
+inline Bytes encode_picture(const csgcore::Image& image, PictureFormat format) {
+  return format == PictureFormat::kPng ? encode_png(image) : encode_exr(image);
+}
+
+/// Replaces `image.rgb` by a picture of the channel `show` (--show=depth|normals|id); misses get
+/// `background`. kSurface and kCells, which renderers draw, leave the image as it is. Depth: near
+/// is white, far dark grey, linear in z over the range of the hits. Normals: (n + 1)/2. Id: a
+/// colour of its own for each id below 2^24. Precondition: the image has its measured channels.
+void show_channel(csgcore::Image& image, Show show, Rgb background);
 
 }  // namespace frontend

@@ -14,4 +14,8 @@ namespace frontend {
 csgcore::Image render(const csgcore::Scene& scene, const csgcore::View& view,
                       const RenderSettings& settings, RenderStats& stats);
 
+/// Returns whether another program has to draw: OpenGL is asked for, or may be chosen since there
+/// is a GPU, but is not in this program.
+bool needs_gl_program(const RenderSettings& settings);
+
 }  // namespace frontend

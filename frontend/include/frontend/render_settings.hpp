@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
+#include <string_view>
 
 #include "csgcore/frame_settings.hpp"
 
@@ -63,5 +65,12 @@ struct RenderSettings {
 
 /// Returns whether both settings give the same picture.
 bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
+
+/// Returns OpenSCAD's eleven colour schemes in its order; the first is the default.
+std::span<const ColorScheme> color_schemes();
+
+/// Finds a scheme by its exact name, upper and lower case distinguished, as OpenSCAD does. Null if
+/// there is none.
+const ColorScheme* find_color_scheme(std::string_view name);
 
 }  // namespace frontend

@@ -1,8 +1,10 @@
-// The frame of every program's main: exit codes, and errors that end the program.
+// The frame of every program's main: exit codes, errors that end the program, and subcommands that
+// are programs of their own, as git's are.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace frontend {
 
@@ -13,5 +15,11 @@ enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 /// Runs a program, flushes its output, and reports any exception on stderr; nothing is thrown.
 /// `smaller` is the advice for a run that is out of memory: "a smaller …".
 ExitCode run_program(const std::function<ExitCode()>& program, const std::string& smaller);
+
+/// Replaces this program by the program `scadray-NAME` in the same folder. Returns only by throwing
+/// Error, if there is no such program or it cannot be run. `todo` is the error's advice in the
+/// former case.
+[[noreturn]] void run_subcommand(const std::string& name, const std::vector<std::string>& arguments,
+                                 const std::string& todo);
 
 }  // namespace frontend

@@ -1,11 +1,13 @@
-// A place in a file that an editor can open.
+// A place in a file that an editor can open, and the way to a leaf of a design.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "frontend/design_tree.hpp"
 #include "language/source_files.hpp"
 
 namespace frontend {
@@ -26,5 +28,24 @@ SourcePlace source_place(const language::SourceFiles& files, language::Place pla
 
 /// Returns "name:line:column"; empty if there is no place.
 std::string text_of(const SourcePlace& place);
+
+/// Where a leaf of a design stands in the design's text, and the calls that led to it.
+struct TrailStep {
+  std::string what;  // the node in few words, or the call as the design spells it
+  SourcePlace place;
+};
+
+/// The way to a leaf, from the inside out: what it is made of, if that is one primitive; the calls
+/// of the design's own modules that stand in between; the leaf; and the calls that it stands in.
+/// Control structures, transformations and operations are no steps.
+struct LeafPlace {
+  std::vector<TrailStep> trail;  // never empty
+  std::size_t leaf = 0;          // its index in the trail
+
+  const TrailStep& step() const { return trail[leaf]; }
+};
+
+/// `node` is one of ImportedDesign::places. A .csg has no calls: the trail is in the .csg.
+LeafPlace leaf_place(const DesignTree& tree, uint32_t node);
 
 }  // namespace frontend

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 
 namespace frontend {
 namespace {
@@ -73,6 +74,30 @@ void print_text(std::FILE* stream, std::string_view text) {
   const std::string shown = isatty(fileno(stream)) == 1 ? visible(text) : std::string();
   if (!shown.empty()) text = shown;
   std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+void ProgressLine::update(const char* stage, double fraction) {
+  if (!enabled_) return;
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  if (now - start_ < kSilence || now - last_ < kInterval) return;
+  last_ = now;
+  shown_ = true;
+  const std::string shown = visible(stage);
+  if (fraction < 0) {
+    std::fprintf(stderr, "\r\033[K%s ...", shown.c_str());
+  } else {
+    std::fprintf(stderr, "\r\033[K%s %3.0f%%", shown.c_str(), 100 * std::min(fraction, 1.0));
+  }
+  std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+  const std::lock_guard lock(mutex_);
+  if (!shown_) return;
+  shown_ = false;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
 }
 
 }  // namespace frontend

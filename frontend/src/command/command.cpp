@@ -9,10 +9,8 @@
 
 #include "base/elapsed.hpp"
 #include "command/check.hpp"
-#include "command/output_paths.hpp"
-#include "command/text_outputs.hpp"
+#include "command/outputs.hpp"
 #include "csgcore/workers.hpp"
-#include "frontend/channel_picture.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/design_version.hpp"
 #include "frontend/error.hpp"
@@ -20,9 +18,8 @@
 #include "frontend/options.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
-#include "frontend/progress.hpp"
+#include "frontend/run_program.hpp"
 #include "frontend/statistics.hpp"
-#include "frontend/subcommand.hpp"
 #include "frontend/terminal.hpp"
 #include "picture/flat_figure.hpp"
 

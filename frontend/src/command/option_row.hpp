@@ -1,7 +1,4 @@
-// The options of a program, one row each: its parser, its --help, its manual page and the shells'
-// completions (frontend/packaging) are all made from the rows. Boost.ProgramOptions is what
-// OpenSCAD reads its own command line with, so its syntax (abbreviated long options, `--render
-// x.scad` taking the file's name as its value, `-oFILE`) is the same by construction.
+// The options of a program, one row each, and those of `scadray`.
 #pragma once
 
 #include <boost/program_options.hpp>
@@ -12,6 +9,10 @@
 
 namespace frontend {
 
+/// The options of a program, one row each: its parser, its --help, its manual page and the shells'
+/// completions (frontend/packaging) are all made from the rows. Boost.ProgramOptions is what
+/// OpenSCAD reads its own command line with, so its syntax (abbreviated long options, `--render
+/// x.scad` taking the file's name as its value, `-oFILE`) is the same by construction.
 enum class Takes : uint8_t {
   kNothing,
   kText,
@@ -45,5 +46,11 @@ std::string help_of(const OptionRow& row);
 boost::program_options::options_description table_of(const char* title,
                                                      std::span<const OptionRow> rows,
                                                      unsigned columns);
+
+/// OpenSCAD's options of `scadray`, with its names.
+std::span<const OptionRow> openscad_options();
+
+/// Those that only scadray has.
+std::span<const OptionRow> own_options();
 
 }  // namespace frontend

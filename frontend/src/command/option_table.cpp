@@ -1,7 +1,6 @@
-#include "command/option_table.hpp"
-
+#include "command/option_row.hpp"
 #include "command/option_words.hpp"
-#include "frontend/color_scheme.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "command/option_row.hpp"
 #include "csgcore/view.hpp"
-#include "frontend/evaluator.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"

@@ -7,10 +7,10 @@
 
 #include "base/lower_case.hpp"
 #include "command/arguments.hpp"
-#include "command/option_table.hpp"
+#include "command/option_row.hpp"
 #include "command/option_words.hpp"
-#include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 namespace {

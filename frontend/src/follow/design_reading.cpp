@@ -11,7 +11,6 @@
 
 #include "base/elapsed.hpp"
 #include "follow/evaluated_design.hpp"
-#include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/stop.hpp"

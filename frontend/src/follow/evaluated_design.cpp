@@ -8,13 +8,19 @@
 
 #include "base/lower_case.hpp"
 #include "follow/openscad_messages.hpp"
-#include "frontend/design_kind.hpp"
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
 #include "language/stopped.hpp"
+#include "lower/import_files.hpp"
 
 namespace frontend {
 namespace {
+
+/// `suffix` is in lower case.
+bool has_suffix(const std::string& path, std::string_view suffix) {
+  return path.size() >= suffix.size() &&
+         lower_case(path.substr(path.size() - suffix.size())) == suffix;
+}
 
 /// Sets a flag by OpenSCAD's words for true and false, in any case; any other word leaves it.
 void read_flag(std::string_view value, bool& flag) {
@@ -56,6 +62,12 @@ class PlacesOfLines {
 };
 
 }  // namespace
+
+DesignKind kind_of(const std::string& path) {
+  if (has_suffix(path, ".scad")) return DesignKind::kScad;
+  if (has_suffix(path, ".csg")) return DesignKind::kCsg;
+  return is_importable(path) ? DesignKind::kImported : DesignKind::kEither;
+}
 
 std::optional<language::EvaluationOptions> evaluation_options(
     const std::vector<std::string>& openscad_arguments, const std::string& path) {

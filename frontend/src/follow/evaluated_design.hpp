@@ -1,6 +1,7 @@
-// Has frontend/language evaluate a .scad.
+// Tells which files are evaluated, and has frontend/language evaluate a .scad.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -12,6 +13,17 @@
 #include "language/evaluation.hpp"
 
 namespace frontend {
+
+/// What a design's file is, by its name.
+enum class DesignKind : uint8_t {
+  kCsg,
+  kScad,      // which has to be evaluated
+  kImported,  // a mesh or a drawing, which is shown as import() shows it
+  kEither,    // its text tells whether it is a .csg or a .scad: standard input, and the temporary
+              // files without a suffix that editors' plugins pass
+};
+
+DesignKind kind_of(const std::string& path);
 
 /// Returns OpenSCAD's command-line arguments as options of the own evaluator; nothing if one of
 /// them is for openscad alone: -m, unless the file is a mesh or a drawing, which misses no files.

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,6 +15,18 @@
 struct inotify_event;
 
 namespace frontend {
+
+/// The lookup of one name in one folder, when the system resolves a path.
+struct PathLookup {
+  std::string folder;  // its path, without links
+  std::string name;
+  bool is_last = false;  // the last name of the path, or of a link in its place: the file itself
+};
+
+/// Calls `visit` for each name that an absolute path is resolved through, links' targets included.
+/// The call comes before the name is examined, so that no change is missed if visit watches the
+/// folder. Ends after the first name that is missing.
+void visit_lookups(const std::string& path, const std::function<void(const PathLookup&)>& visit);
 
 /// Watches files, which may be missing: their contents, and every folder and link on their paths.
 /// It uses inotify, and also looks at the files at intervals where inotify does not report every

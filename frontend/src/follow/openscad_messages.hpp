@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/design_message.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/error.hpp"
 
 namespace frontend {

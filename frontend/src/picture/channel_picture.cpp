@@ -1,8 +1,8 @@
-#include "frontend/channel_picture.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "frontend/picture_file.hpp"
 
 namespace frontend {
 namespace {

@@ -1,6 +1,6 @@
-#include "frontend/color_scheme.hpp"
-
 #include <array>
+
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 namespace {

@@ -1,5 +1,3 @@
-#include "picture/facet_edges.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,6 +8,7 @@
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/triangle_mesh.hpp"
+#include "picture/edge_overlay.hpp"
 #include "picture/overlay_lines.hpp"
 
 namespace frontend {

@@ -1,4 +1,5 @@
-// Draws lines in space over a finished picture, where the model does not hide them.
+// Draws lines in space over a finished picture, where the model does not hide them: OpenSCAD's
+// --view=axes and --view=scales.
 #pragma once
 
 #include <array>
@@ -58,5 +59,16 @@ class LinePainter {
   Projector projector_;
   double distance_;
 };
+
+/// Draws the world's axes from −camera.distance to +camera.distance, the negative halves stippled.
+void draw_axes(LinePainter& painter, const Camera& camera);
+
+/// Draws the red, green and blue axes in the lower left corner, over everything.
+void draw_gnomon(Canvas& canvas, const csgcore::View& view, Rgb label_color);
+
+/// Draws marks and numbers along the six half-axes, up to the camera's distance. The numbers lie in
+/// the planes in which OpenSCAD draws them, so that from some sides they are seen edge-on or
+/// mirrored.
+void draw_scale_marks(LinePainter& painter, const Camera& camera);
 
 }  // namespace frontend

@@ -1,10 +1,7 @@
 #include "frontend/overlays.hpp"
 
-#include "picture/axes_overlay.hpp"
 #include "picture/edge_overlay.hpp"
-#include "picture/facet_edges.hpp"
-#include "picture/mesh_lookup.hpp"
-#include "picture/scale_marks.hpp"
+#include "picture/overlay_lines.hpp"
 
 namespace frontend {
 namespace {

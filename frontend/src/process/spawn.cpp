@@ -1,8 +1,17 @@
 #include "process/spawn.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <optional>
 #include <system_error>
+#include <thread>
+#include <utility>
+
+#include "frontend/interrupt.hpp"
 
 extern char** environ;
 
@@ -32,6 +41,22 @@ pid_t spawn(std::vector<std::string> command, const FileActions& files, std::opt
   posix_spawnattr_destroy(&attributes);
   if (failed != 0) throw std::system_error(failed, std::generic_category(), command[0]);
   return pid;
+}
+
+void start_program(const std::vector<std::string>& command,
+                   std::function<void(int exit_code)> on_end) {
+  FileActions files;
+  files.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  files.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  files.open(STDERR_FILENO, "/dev/null", O_WRONLY);
+  const HoldInterrupts hold;
+  const pid_t pid = spawn(command, files, std::nullopt, hold);
+  std::thread([pid, end = std::move(on_end)] {
+    int status = 0;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    end(WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+  }).detach();
 }
 
 }  // namespace frontend

@@ -1,5 +1,3 @@
-#include "render/cells_picture.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <optional>
 
 #include "csgcore/phong.hpp"
+#include "render/scene_subdivision.hpp"
 
 namespace frontend {
 namespace {

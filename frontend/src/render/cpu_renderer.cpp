@@ -1,12 +1,9 @@
-#include "render/cpu_renderer.hpp"
-
 #include <optional>
 #include <span>
 
 #include "base/elapsed.hpp"
 #include "csgcore/changed_areas.hpp"
 #include "csgcore/tracer.hpp"
-#include "render/cells_picture.hpp"
 #include "render/scene_subdivision.hpp"
 #include "render/solid_renderer.hpp"
 

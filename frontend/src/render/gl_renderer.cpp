@@ -1,5 +1,3 @@
-#include "render/gl_renderer.hpp"
-
 #include <algorithm>
 #include <map>
 #include <type_traits>
@@ -7,7 +5,7 @@
 
 #include "base/elapsed.hpp"
 #include "csgcore/changed_areas.hpp"
-#include "frontend/gl_program.hpp"
+#include "frontend/render.hpp"
 #include "glrender/renderer.hpp"
 #include "render/scene_subdivision.hpp"
 #include "render/solid_renderer.hpp"

@@ -1,6 +1,6 @@
 // In place of gl_renderer.cpp in programs without OpenGL.
-#include "frontend/gl_program.hpp"
-#include "render/gl_renderer.hpp"
+#include "frontend/render.hpp"
+#include "render/solid_renderer.hpp"
 
 namespace frontend {
 

@@ -1,7 +1,9 @@
 #include "frontend/render.hpp"
 
 #include <memory>
+#include <tuple>
 
+#include "frontend/render_settings.hpp"
 #include "frontend/scene_renderer.hpp"
 
 namespace frontend {
@@ -12,6 +14,15 @@ csgcore::Image render(const csgcore::Scene& scene, const csgcore::View& view,
   SceneRenderer renderer;
   renderer.load(ScenePointer(ScenePointer(), &scene));  // it outlives the renderer
   return renderer.draw(view, settings, stats);
+}
+
+bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
+  const auto what = [](const RenderSettings& s) {
+    return std::tuple(s.scheme.background, s.scheme.front, s.scheme.back, s.scheme.axes,
+                      s.from_within, s.shading, s.show, s.technique, s.samples, s.leaf_primitives,
+                      s.threshold_px, s.measured_channels);
+  };
+  return what(a) == what(b);
 }
 
 }  // namespace frontend

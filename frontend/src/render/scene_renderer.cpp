@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
-#include "render/cpu_renderer.hpp"
-#include "render/gl_renderer.hpp"
 #include "render/prepared_scene.hpp"
 #include "render/renderer_choice.hpp"
 #include "render/scene_scale.hpp"
+#include "render/solid_renderer.hpp"
 
 namespace frontend {
 namespace {

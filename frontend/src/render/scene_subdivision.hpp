@@ -1,8 +1,11 @@
-// The kd-trees of a scene's solids by the command's settings, timed and counted.
+// The kd-trees of a scene's solids by the command's settings, timed and counted, and pictures of
+// their cells.
 #pragma once
 
 #include <map>
 
+#include "csgcore/frame_settings.hpp"
+#include "csgcore/image.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/render_settings.hpp"
 #include "frontend/render_stats.hpp"
@@ -33,5 +36,11 @@ class SceneSubdivisions {
 
 /// Fills the statistics of the model's cells.
 void count_cells(const csgcore::Subdivision& subdivision, RenderStats& stats);
+
+/// Draws the leaf cells that a surface crosses as boxes (paper, figure 5b), without OpenGL but as
+/// glrender draws them: the nearest face of the nearest box (from within a box, its far face) in
+/// the frame's front colour, and `edge` along the edges. No id.
+csgcore::Image cells_picture(const csgcore::Subdivision& subdivision, const csgcore::View& view,
+                             const csgcore::FrameSettings& frame, const glm::vec3& edge);
 
 }  // namespace frontend

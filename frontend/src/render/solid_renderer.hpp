@@ -2,15 +2,19 @@
 // (colours, translucent parts, scale, the choice between them) is scene_renderer.cpp's.
 #pragma once
 
+#include <memory>
 #include <span>
+#include <string>
 
 #include "csgcore/frame_settings.hpp"
 #include "csgcore/image.hpp"
 #include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/view.hpp"
+#include "frontend/error.hpp"
 #include "frontend/render_settings.hpp"
 #include "frontend/render_stats.hpp"
+#include "render/renderer_choice.hpp"
 
 namespace frontend {
 
@@ -75,5 +79,24 @@ class SolidRenderer {
   /// All solids that were drawn.
   virtual void forget() = 0;
 };
+
+/// Returns the drawing by the CPU tracer, csgcore/tracer.hpp.
+std::unique_ptr<SolidRenderer> make_cpu_renderer();
+
+/// OpenGL cannot be had, or failed. The CPU may still draw.
+class GlFailure : public Error {
+ public:
+  explicit GlFailure(const std::string& reason, const std::string& todo = {})
+      : Error({}, {}, reason, todo), reason_(reason) {}
+  /// Without what to do, and without the word "error".
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; also if the driver does not
+/// meet the demands.
+std::unique_ptr<SolidRenderer> make_gl_renderer(const GlDemands& demands);
 
 }  // namespace frontend

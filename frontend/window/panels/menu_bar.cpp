@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "frontend/color_scheme.hpp"
+#include "frontend/render_settings.hpp"
 #include "panels/keyboard.hpp"
 #include "panels/panels.hpp"
 #include "panels/style.hpp"

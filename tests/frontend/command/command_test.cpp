@@ -17,7 +17,7 @@
 
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
-#include "frontend/progress.hpp"
+#include "frontend/terminal.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "command/option_table.hpp"
-#include "frontend/color_scheme.hpp"
+#include "command/option_row.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 namespace {

@@ -1,10 +1,9 @@
 // Tests the inputs that a followed design is read with besides its files: parameters and $t.
-#include "frontend/design_inputs.hpp"
-
 #include <gmock/gmock.h>
 
 #include "follow/followed.hpp"
 #include "follow/input_turn.hpp"
+#include "frontend/design_file_options.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

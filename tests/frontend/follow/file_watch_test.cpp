@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <poll.h>
 
-#include "follow/path_lookups.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

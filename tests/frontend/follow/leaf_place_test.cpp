@@ -1,12 +1,11 @@
 // Tests where a leaf is said to stand, and which calls have led to it.
-#include "frontend/leaf_place.hpp"
-
 #include <gmock/gmock.h>
 
 #include <string>
 
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
+#include "frontend/source_place.hpp"
 #include "language/evaluation.hpp"
 #include "nodes/node_label.hpp"
 #include "temporary_folder.hpp"

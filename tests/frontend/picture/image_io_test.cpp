@@ -13,7 +13,6 @@
 #include <limits>
 #include <random>
 
-#include "frontend/channel_picture.hpp"
 #include "frontend/picture_file.hpp"
 
 namespace frontend {

@@ -10,11 +10,11 @@
 #include <string>
 
 #include "frontend/camera.hpp"
-#include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "edited_scenes.hpp"
 #include "frontend/camera.hpp"
-#include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "support/models.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "csgcore/polyhedron.hpp"
-#include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render_settings.hpp"
 #include "support/models.hpp"
 
 namespace frontend {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "edits/random_statements.hpp"
-#include "frontend/design_inputs.hpp"
+#include "frontend/design_file_options.hpp"
 
 namespace window_test {
 

@@ -1,4 +1,5 @@
-// The names of the outputs, frame by frame, and the rule for make that has them as targets.
+// The outputs of the command: their names, frame by frame, the rule for make that has them as
+// targets, and what `openscad -o` writes of a design as text.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "frontend/file_text.hpp"
 #include "frontend/files.hpp"
 #include "frontend/options.hpp"
+#include "frontend/run_program.hpp"
 
 namespace frontend {
 
@@ -28,5 +31,11 @@ std::vector<NamedPath> output_paths(const Options& options);
 /// Returns the rule for make: all outputs depend on the files. Throws Error for a name that no rule
 /// can contain.
 std::string rule_of(const Options& options, std::vector<std::string> files);
+
+/// Writes options.texts, the design's tree or its messages, and the rule for make where there are
+/// no pictures. Each is evaluated by itself, as by OpenSCAD, whose exit codes and messages these
+/// are. `text` is what text_in_memory() has given of the design. Throws Error for what cannot be
+/// read or written.
+ExitCode write_texts(const Options& options, const std::optional<FileText>& text);
 
 }  // namespace frontend
