@@ -11,7 +11,7 @@
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
 #include "language/stopped.hpp"
-#include "lower/import_files.hpp"
+#include "solids/import_files.hpp"
 
 namespace frontend {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "csg/node_label.hpp"
+#include "nodes/node_label.hpp"
 
 namespace frontend {
 namespace {

@@ -7,7 +7,7 @@
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
-#include "csgcore/tight_bounds.hpp"
+#include "csgcore/solid.hpp"
 #include "lower/collector.hpp"
 #include "solids/leaves.hpp"
 

@@ -11,9 +11,8 @@
 
 #include "heal/matrix_healing.hpp"
 #include "language/degrees.hpp"
-#include "meshes/sheet_faces.hpp"
-#include "solids/faceted_box.hpp"
 #include "meshes/face_set.hpp"
+#include "solids/faceted_box.hpp"
 
 namespace frontend {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "csgcore/geometry.hpp"
-#include "meshes/ringed_faces.hpp"
+#include "meshes/face_set.hpp"
 #include "plane/figure.hpp"
 #include "rendered/rendering.hpp"
 #include "solids/hull_pool.hpp"

@@ -19,10 +19,9 @@
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/stop.hpp"
-#include "subtrees/render_text.hpp"
-#include "meshes/nef_text.hpp"
 #include "meshes/read_solid_file.hpp"
 #include "rendered/render_cache.hpp"
+#include "subtrees/render_text.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
