@@ -14,7 +14,7 @@ using csgcore::ProfileLoop;
 Vec2 point_of(const FT_Vector& v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
 
 /// A curve of the third degree, by its control points.
-struct Cubic {
+struct GlyphCubic {
   Vec2 p0, p1, p2, p3;
 
   Vec2 at(double t) const {
@@ -64,7 +64,7 @@ class ShapeBuilder {
   }
 
   void cubic_to(const Vec2& control1, const Vec2& control2, const Vec2& to) {
-    const Cubic cubic{at_, control1, control2, to};
+    const GlyphCubic cubic{at_, control1, control2, to};
     if (pieces_ == 0) {
       quadratics_to(cubic);
       return;
@@ -88,7 +88,7 @@ class ShapeBuilder {
   /// A quadratic curve whose control point is (3(p1 + p2) − p0 − p3)/4 has the cubic's ends, and
   /// differs from it by (p3 − 3p2 + 3p1 − p0)·t(t − 1/2)(t − 1), whose polynomial is at most √3/36.
   /// The third difference of one of n pieces is 1/n³ of the whole curve's.
-  void quadratics_to(const Cubic& cubic) {
+  void quadratics_to(const GlyphCubic& cubic) {
     const double off_by =
         std::sqrt(3.0) / 36 * glm::length(cubic.p3 - 3.0 * cubic.p2 + 3.0 * cubic.p1 - cubic.p0);
     const int count = std::max(1, static_cast<int>(std::ceil(std::cbrt(off_by / kCubicTolerance))));

@@ -76,7 +76,7 @@ struct Facet {
   std::vector<uint32_t> rings;
 };
 
-struct Corner {
+struct NefCorner {
   uint32_t half_edge, next;
 };
 
@@ -222,7 +222,7 @@ class NefText {
   std::vector<uint32_t> vertex_of_half_edge_;
   std::vector<Facet> facets_;
   std::vector<bool> is_solid_;  // by volume
-  std::vector<Corner> corners_;
+  std::vector<NefCorner> corners_;
 };
 
 }  // namespace

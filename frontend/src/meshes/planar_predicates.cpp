@@ -81,7 +81,7 @@ struct ExactOffset {
       : x(ExactSum::difference(to.x, from.x)), y(ExactSum::difference(to.y, from.y)) {}
 };
 
-ExactSum cross(const ExactOffset& a, const ExactOffset& b) {
+ExactSum exact_cross(const ExactOffset& a, const ExactOffset& b) {
   ExactSum result = a.x.times(b.y);
   result.subtract(a.y.times(b.x));
   return result;
@@ -93,7 +93,7 @@ int orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
   const double turn = left - right;
   if (std::abs(turn) > kOrientationError * (std::abs(left) + std::abs(right))) return sign_of(turn);
-  return cross(ExactOffset(c, a), ExactOffset(c, b)).sign();
+  return exact_cross(ExactOffset(c, a), ExactOffset(c, b)).sign();
 }
 
 int in_circle(const dvec2& a, const dvec2& b, const dvec2& c, const dvec2& d) {
