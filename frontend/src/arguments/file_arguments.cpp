@@ -49,9 +49,9 @@ FileArguments read_surface(NodeReader& reader) {
 }
 
 std::optional<DrawingFormat> drawing_format_of(std::string_view name) {
-  constexpr size_t kSuffix = 4;
-  if (name.size() < kSuffix) return std::nullopt;
-  const std::string suffix = lower_case(std::string(name.substr(name.size() - kSuffix)));
+  constexpr size_t kSuffixBytes = 4;
+  if (name.size() < kSuffixBytes) return std::nullopt;
+  const std::string suffix = lower_case(std::string(name.substr(name.size() - kSuffixBytes)));
   if (suffix == ".dxf") return DrawingFormat::kDxf;
   if (suffix == ".svg") return DrawingFormat::kSvg;
   return std::nullopt;
