@@ -1,7 +1,8 @@
 // The interface that each kind of primitive implements, in a file of its own (sphere.cpp,
 // frustum.cpp, polyhedron_primitive.cpp). Another file implements its rays (sphere-inl.hpp and so
-// on: primitive-inl.hpp lists them). CSGCORE_FOR_EACH_SHAPE (csgcore/shape.hpp) lists the kinds,
-// and a kind without an implementation does not link.
+// on: primitive-inl.hpp lists those of convex kinds, kind_crossings-inl.hpp the others).
+// CSGCORE_FOR_EACH_SHAPE (csgcore/shape.hpp) lists the kinds, and a kind without an implementation
+// does not link.
 #pragma once
 
 #include <glm/common.hpp>

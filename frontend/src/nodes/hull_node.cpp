@@ -1,10 +1,9 @@
-#include "plane/hull.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <utility>
 
 #include "hulls/point_hull.hpp"
+#include "plane/hull.hpp"
 #include "subtrees/node_row.hpp"
 #include "subtrees/plane_evaluation.hpp"
 #include "subtrees/solid_evaluation.hpp"

@@ -6,6 +6,7 @@
 
 #include "arguments/value_text.hpp"
 #include "solids/sliced_extrusion.hpp"
+#include "subtrees/extrusions.hpp"
 #include "subtrees/node_row.hpp"
 #include "subtrees/solid_evaluation.hpp"
 
@@ -128,6 +129,7 @@ const NodeRow kLinearExtrudeRow{
       return linear_extrude_node(read_linear_extrude(reader), sources.options);
     },
     .solid = extruded,
+    .lower = lower_linear_extrude,
 };
 
 }  // namespace frontend

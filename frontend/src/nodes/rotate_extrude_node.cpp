@@ -77,6 +77,7 @@ const NodeRow kRotateExtrudeRow{
       return result;
     },
     .solid = revolved,
+    .lower = lower_rotate_extrude,
 };
 
 }  // namespace frontend

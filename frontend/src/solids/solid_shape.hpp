@@ -25,7 +25,7 @@ struct SolidShape {
   std::string file{};                   // that the faces are from, as the design names it
 };
 
-/// Returns the solid of a node that Role::kSolid is true for; nothing if it is empty. Tells what is
+/// Returns the solid of a node whose row has Role::kSolid; nothing if it is empty. Tells what is
 /// wrong with its file.
 std::optional<SolidShape> solid_shape(const NodeData& data, const Node& node,
                                       const SolidSources& sources, NodeProblems& problems);

@@ -1,5 +1,5 @@
-// The table of nodes: what scadray knows of each kind. A node is one file in this folder, with its
-// row; what differs from kind to kind asks the row.
+// The table of nodes: what scadray knows of each kind. A node is one file of the room `nodes`, with
+// its row; what differs from kind to kind asks the row.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,13 @@
 
 namespace frontend {
 
-class FileImports;
+class FigureSolids;
+class FrameTree;
 class PlaneEvaluation;
+class PlaneSubtree;
 class SolidEvaluation;
+struct FigureTree;
+struct LoweredSubtree;
 struct SolidValue;
 
 /// What the preview does with a node.
@@ -52,7 +56,8 @@ struct NodeRow {
   bool is_one_leaf = false;
   /// OpenSCAD takes 2D children, whatever the first one is.
   bool takes_figures = false;
-  /// The figure that it makes needs the outlines of its children's figures together.
+  /// The figure that it makes needs the figures of its children together, not the operations on
+  /// them alone.
   bool joins_figures = false;
   InnerParts inner_parts = InnerParts::kNone;
   /// The arguments that tell what the node is, in the order in which the window shows them.
@@ -66,6 +71,11 @@ struct NodeRow {
   std::optional<std::vector<Figure>> (*figures)(PlaneEvaluation& planes, uint32_t node) = nullptr;
   /// Returns the node's solid from those of its operands. Null: `op` is what it does with them.
   SolidValue (*solid)(SolidEvaluation& solids, uint32_t node) = nullptr;
+  /// Of an extrusion: returns the primitives of a subtree whose root it is, which stands in
+  /// `frame`, from the operations on its figures. Null: they are those of `solid`.
+  LoweredSubtree (*lower)(const PlaneSubtree& subtree, PlaneEvaluation& planes,
+                          const FigureTree& figures, uint32_t frame, const FrameTree& frames,
+                          FigureSolids& solids, NodeProblems& problems) = nullptr;
 
   bool is_extrusion() const { return takes_figures && dimension == 3; }
   /// Returns whether it has a place among Primitive::id, though it names no drawing.

@@ -31,7 +31,8 @@ PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& prob
       nodes_(subtree.end() - subtree.root()) {
   for (uint32_t i = subtree_.root(); i < subtree_.end(); ++i) {
     at(i).has_figures = at(i).has_figures || row(i).joins_figures;
-    if (!at(i).has_figures && subtree_.syntax(i).kind != NodeKind::kProjection) continue;
+    const bool is_projection = subtree_.syntax(i).kind == NodeKind::kProjection;
+    if (!at(i).has_figures && !is_projection && !is_solid_extrusion(i)) continue;
     for (uint32_t c = i + 1; c < subtree_.end_of(i); c = subtree_.end_of(c)) {
       at(c).has_figures = true;
     }
@@ -52,7 +53,7 @@ void PlaneEvaluation::find_presence(uint32_t node) {
   Node& own = at(node);
   const NodeRow& row = subtree_.row(node);
   if (const ImportedDrawing* drawing = subtree_.drawing(node)) {
-    own.dimension = row.is_extrusion() && !is_root ? 3 : 2;
+    own.dimension = is_solid_extrusion(node) ? 3 : 2;
     own.presence = drawing->figures.empty() ? Presence::kEmpty : Presence::kSolid;
   } else if (syntax.kind == NodeKind::kProjection) {
     project(node);
@@ -64,7 +65,7 @@ void PlaneEvaluation::find_presence(uint32_t node) {
     own.presence = is_empty_figure(subtree_.data(node)) ? Presence::kEmpty : Presence::kSolid;
   } else {
     combine(node);
-    if (row.is_extrusion() && !is_root) own.dimension = 3;
+    if (is_solid_extrusion(node)) own.dimension = 3;
   }
 }
 

@@ -85,6 +85,11 @@ class PlaneEvaluation {
     FigureOperations projection;
   };
 
+  /// Returns whether the node is an extrusion whose solid is asked for, and not its figures alone.
+  bool is_solid_extrusion(uint32_t node) const {
+    const bool is_lowered = node == subtree_.root() && row(node).lower != nullptr;
+    return row(node).is_extrusion() && !is_lowered;
+  }
   Node& at(uint32_t node) { return nodes_[node - subtree_.root()]; }
   const Node& at(uint32_t node) const { return nodes_[node - subtree_.root()]; }
   void find_presence(uint32_t node);

@@ -5,7 +5,6 @@
 #include "solids/faceted_box.hpp"
 #include "subtrees/extrusions.hpp"
 #include "subtrees/figure_tree.hpp"
-#include "subtrees/revolutions.hpp"
 
 namespace frontend {
 namespace {
@@ -64,13 +63,9 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
                              NodeProblems& problems) {
   const FigureTree figures = figure_tree(subtree, evaluation, frame, frames);
   const Affine root_to_world = frames[frame].to_world;
-  const NodeKind kind = subtree.syntax(subtree.root()).kind;
-  if (kind == NodeKind::kRotateExtrude) {
-    return lower_rotate_extrude(subtree, evaluation, figures, frame, root_to_world, solids,
-                                problems);
-  }
-  if (kind == NodeKind::kLinearExtrude) {
-    return lower_linear_extrude(subtree, evaluation, figures, frame, frames, solids, problems);
+  const NodeRow& row = subtree.row(subtree.root());
+  if (row.lower != nullptr) {
+    return row.lower(subtree, evaluation, figures, frame, frames, solids, problems);
   }
   if (plate == Plate::kFlat) {
     const FigureTree rest = evaluated(figures, evaluation, subtree.root(), frame);

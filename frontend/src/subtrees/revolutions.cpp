@@ -200,9 +200,10 @@ SimplePolygons cut_at_axis(SimplePolygons polygons, bool is_left) {
 
 LoweredSubtree lower_rotate_extrude(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
                                     const FigureTree& figures, uint32_t frame,
-                                    const Affine& root_to_world, FigureSolids& solids,
+                                    const FrameTree& frames, FigureSolids& solids,
                                     NodeProblems& problems) {
   if (subtree.data<RotateExtrudeNode>(subtree.root()).arguments.angle == 0) return {};
+  const Affine& root_to_world = frames[frame].to_world;
   return Revolving(subtree, evaluation, frame, root_to_world, solids, problems).lower(figures);
 }
 

@@ -29,7 +29,7 @@ SimplePolygons cut_at_axis(SimplePolygons polygons, bool is_left);
 /// Lowers a subtree whose root is a rotate_extrude, in a frame.
 LoweredSubtree lower_rotate_extrude(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
                                     const FigureTree& figures, uint32_t frame,
-                                    const csgcore::Affine& root_to_world, FigureSolids& solids,
+                                    const FrameTree& frames, FigureSolids& solids,
                                     NodeProblems& problems);
 
 }  // namespace frontend

@@ -1,5 +1,6 @@
 #include "modules/builtin_modules.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace language {
@@ -79,6 +80,7 @@ constexpr BuiltinModule kModules[] = {
     {"text", kText, kTextNamed, kIgnores, make_text},
     {"translate", kV, {}, kTakes, make_translate},
 };
+static_assert(std::ranges::is_sorted(kModules, {}, &BuiltinModule::name));
 
 }  // namespace
 
