@@ -169,7 +169,11 @@ class PathReader {
     if (radii.x == 0 || radii.y == 0 || end == at_) return;
     const EllipseArc arc =
         svg_arc(at_, end, radii, numbers_[2], numbers_[3] != 0, numbers_[4] != 0);
-    part(at_).arc_to(arc, svg_arc_pieces(arc.sweep), end);
+    if (std::isfinite(arc.sweep)) {
+      part(at_).arc_to(arc, svg_arc_pieces(arc.sweep), end);
+    } else {  // on the way to its angles some number is beyond double's
+      part(at_).line_to(end);
+    }
     at_ = end;
     last_control_.reset();
   }

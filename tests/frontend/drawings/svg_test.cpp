@@ -140,6 +140,10 @@ TEST(SvgPath, HasCurves) {
   EXPECT_THAT(chords_of(faceted), ElementsAre(SizeIs(15)));
 }
 
+TEST(SvgPath, HasLinesForArcsWithoutAngles) {
+  EXPECT_NEAR(filled_area(svg_path("M0 0 A1e-320 1 0 0 0 10 0 V10z")), 50, 1e-6);
+}
+
 TEST(SvgPath, IsStrokedWhereItIsOpen) {
   EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0")), 11, 1e-4);
   EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0 L10 10 L0 0.05")), 50.25, 1e-6);
