@@ -19,12 +19,6 @@ constexpr int kMostChordsOfBezier = kChordsOfCircle / 2;
 /// The distance of a circle from its chords, in shares of the radius.
 constexpr double kDistanceFromChords = 4e-5;
 
-ProfileEdge line_to(const Vec2& end) {
-  ProfileEdge edge;
-  edge.end = end;
-  return edge;
-}
-
 /// The angle that an arc turns by, in radians: positive if it runs counterclockwise.
 double sweep_of(const Vec2& start, const ProfileEdge& arc) {
   const Vec2 from = start - arc.control;

@@ -78,6 +78,13 @@ size_t edge_count(std::span<const Polygon> polygons);
 /// Returns what the cross product has in z: positive if `b` lies counterclockwise of `a`.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
+/// Returns the straight edge to a point.
+inline csgcore::ProfileEdge line_to(const Vec2& end) {
+  csgcore::ProfileEdge edge;
+  edge.end = end;
+  return edge;
+}
+
 /// Calls visit(start, end) for each edge.
 template <typename Visit>
 void visit_edges(const Polygon& polygon, const Visit& visit) {
