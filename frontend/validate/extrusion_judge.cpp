@@ -15,12 +15,12 @@
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/importer.hpp"
-#include "subtrees/render_text.hpp"
-#include "subtrees/node_row.hpp"
 #include "ray_judge.hpp"
 #include "render/scene_scale.hpp"
 #include "rendered/rendering.hpp"
 #include "samples.hpp"
+#include "subtrees/node_row.hpp"
+#include "subtrees/render_text.hpp"
 
 namespace validation {
 namespace {

@@ -18,8 +18,8 @@
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"
 #include "language/parameter_set_file.hpp"
-#include "solids/import_files.hpp"
 #include "process/memory_file.hpp"
+#include "solids/import_files.hpp"
 
 namespace frontend {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "solids/leaves.hpp"
 #include "lower/products.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 namespace {

@@ -114,7 +114,8 @@ TEST(EvaluatedDesigns, MatricesStayAsTheyAre) {
   const ValueList rows = argument_of(tree, 0, 0).elements();
   const csgcore::Primitive& cube = design.scene.primitives[0];
   for (int row = 0; row < 3; ++row) {
-    EXPECT_EQ(cube.local_to_world.linear[0][row], rows[static_cast<size_t>(row)].elements()[0].number());
+    EXPECT_EQ(cube.local_to_world.linear[0][row],
+              rows[static_cast<size_t>(row)].elements()[0].number());
   }
 }
 

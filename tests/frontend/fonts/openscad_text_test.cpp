@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "frontend/parser.hpp"
-#include "subtrees/subtree.hpp"
 #include "plane/outlines.hpp"
+#include "subtrees/subtree.hpp"
 #include "support/full_run.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,11 +1,10 @@
 // Tests how extrusions are cut into slices, and the meshes between them.
-#include "solids/sliced_solid.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "csgcore/triangle_mesh.hpp"
+#include "solids/sliced_solid.hpp"
 #include "solids/smooth_slices.hpp"
 
 namespace frontend {

@@ -1,6 +1,4 @@
 // Tests the tight box of a solid, against solids whose box is known.
-#include "lower/leaf_boxes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
+#include "lower/leaf_boxes.hpp"
 
 namespace frontend {
 namespace {

@@ -11,8 +11,8 @@
 #include "follow/design_reading.hpp"
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
-#include "solids/hull_pool.hpp"
 #include "painter.hpp"
+#include "solids/hull_pool.hpp"
 #include "support/full_run.hpp"
 #include "temporary_folder.hpp"
 
