@@ -1,0 +1,496 @@
+#include "mesh_judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+namespace test_support {
+namespace {
+
+using csgcore::CsgToken;
+using csgcore::Op;
+using csgcore::TriangleSet;
+using csgcore::Vec3;
+using Wide = long double;
+using WideVec = glm::tvec3<Wide>;
+
+constexpr Wide kWideEpsilon = std::numeric_limits<Wide>::epsilon();
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char buffer[400];
+  std::snprintf(buffer, sizeof(buffer), format, values...);
+  return buffer;
+}
+
+std::string text_of(const Vec3& p) { return text("(%.17g, %.17g, %.17g)", p.x, p.y, p.z); }
+
+std::string text_of(const TriangleSet& surface, size_t triangle) {
+  std::string result = text("triangle %zu:", triangle);
+  for (const uint32_t corner : surface.triangles[triangle]) {
+    result += " " + text_of(surface.vertices[corner]);
+  }
+  return result;
+}
+
+double largest_coordinate(std::span<const Vec3> points) {
+  double largest = 0;
+  for (const Vec3& p : points) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return largest;
+}
+
+uint64_t edge_key(uint32_t from, uint32_t to) { return uint64_t(from) << 32 | to; }
+
+// Crossing triangles.
+
+struct Corners {
+  WideVec p[3];
+  WideVec normal;  // of unit length, or 0
+};
+
+Corners corners_of(const TriangleSet& surface, size_t triangle) {
+  Corners result;
+  for (size_t i = 0; i < 3; ++i) {
+    result.p[i] = WideVec(surface.vertices[surface.triangles[triangle][i]]);
+  }
+  const WideVec normal = glm::cross(result.p[1] - result.p[0], result.p[2] - result.p[0]);
+  const Wide length = glm::length(normal);
+  result.normal = length > 0 ? normal / length : WideVec(0);
+  return result;
+}
+
+/// How far the corners of one triangle reach from the plane of another, to both sides.
+struct Sides {
+  Wide at[3];
+  Wide above() const { return std::max({at[0], at[1], at[2]}); }
+  Wide below() const { return -std::min({at[0], at[1], at[2]}); }
+};
+
+Sides sides_of(const Corners& triangle, const Corners& plane) {
+  Sides sides{};
+  for (int i = 0; i < 3; ++i) sides.at[i] = glm::dot(triangle.p[i] - plane.p[0], plane.normal);
+  return sides;
+}
+
+struct Stretch {
+  Wide low = std::numeric_limits<Wide>::infinity();
+  Wide high = -std::numeric_limits<Wide>::infinity();
+  void add(Wide at) {
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+};
+
+Wide overlap(const Stretch& a, const Stretch& b) {
+  return std::min(a.high, b.high) - std::max(a.low, b.low);
+}
+
+Stretch stretch_along(const Corners& triangle, const WideVec& direction) {
+  Stretch stretch;
+  for (const WideVec& p : triangle.p) stretch.add(glm::dot(p, direction));
+  return stretch;
+}
+
+/// Returns the part of the triangle in a plane that crosses it, along the direction.
+Stretch stretch_in(const Corners& triangle, const Sides& sides, const WideVec& direction) {
+  Stretch stretch;
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3;
+    const Wide a = sides.at[i], b = sides.at[k];
+    if ((a > 0) == (b > 0)) continue;
+    const Wide share = a / (a - b);
+    stretch.add(glm::dot(triangle.p[i] + share * (triangle.p[k] - triangle.p[i]), direction));
+  }
+  return stretch;
+}
+
+/// Returns how far both, which lie in one plane, overlap: the least way that separates them.
+Wide plane_overlap(const Corners& a, const Corners& b) {
+  Wide least = std::numeric_limits<Wide>::infinity();
+  for (const Corners* own : {&a, &b}) {
+    for (int i = 0; i < 3; ++i) {
+      const WideVec edge = own->p[(i + 1) % 3] - own->p[i];
+      const Wide length = glm::length(edge);
+      if (!(length > 0)) continue;
+      const WideVec across = glm::cross(own->normal, edge / length);
+      least = std::min(least, overlap(stretch_along(a, across), stretch_along(b, across)));
+    }
+  }
+  return least;
+}
+
+/// Returns by how much two triangles cross, or a number ≤ `rounding`.
+Wide crossing_size(const Corners& a, const Corners& b, Wide rounding) {
+  const Sides a_sides = sides_of(a, b), b_sides = sides_of(b, a);
+  const bool a_is_flat = std::max(a_sides.above(), a_sides.below()) <= rounding;
+  const bool b_is_flat = std::max(b_sides.above(), b_sides.below()) <= rounding;
+  if (a_is_flat && b_is_flat) return plane_overlap(a, b);
+  const Wide depth = std::min({a_sides.above(), a_sides.below(), b_sides.above(), b_sides.below()});
+  if (depth <= rounding) return depth;
+  WideVec direction = glm::cross(a.normal, b.normal);
+  const Wide length = glm::length(direction);
+  if (!(length > 0)) return 0;
+  direction /= length;
+  return std::min(depth,
+                  overlap(stretch_in(a, a_sides, direction), stretch_in(b, b_sides, direction)));
+}
+
+// Lines.
+
+/// The sign of (a − p) × (b − p), with 0 if rounding may have changed it.
+struct Turn {
+  Wide value;
+  Wide error;
+  int sign() const { return value > error ? 1 : value < -error ? -1 : 0; }
+};
+
+/// What a primitive or an operation is before and after a crossing, and who shows its change.
+struct Change {
+  bool before, after;
+  int64_t shown;  // the operand, or -1
+};
+
+Change combined(Op op, std::span<const Change> operands) {
+  Change result = operands[0];
+  for (size_t i = 1; i < operands.size(); ++i) {
+    const Change& next = operands[i];
+    if (op == Op::kUnion) {
+      result.before |= next.before;
+      result.after |= next.after;
+    } else if (op == Op::kIntersection) {
+      result.before &= next.before;
+      result.after &= next.after;
+    } else {
+      result.before &= !next.before;
+      result.after &= !next.after;
+    }
+  }
+  result.shown = -1;
+  if (result.before == result.after) return result;
+  for (size_t i = 0; i < operands.size(); ++i) {
+    const bool is_subtracted = op == Op::kDifference && i > 0;
+    const Change& own = operands[i];
+    if (own.before != own.after && (own.after == result.after) != is_subtracted) {
+      result.shown = std::max(result.shown, own.shown);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string manifold_flaw(const TriangleSet& surface) {
+  const auto vertices = surface.vertices.size();
+  for (const Vec3& p : surface.vertices) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return "a vertex is not finite";
+    }
+  }
+  std::unordered_map<uint64_t, uint32_t> edges;  // to the triangle
+  std::vector<uint32_t> degree(vertices);
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& triangle = surface.triangles[t];
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
+      if (from >= vertices) return text("triangle %zu names a vertex that is not there", t);
+      if (from == to) return text("triangle %zu names a vertex twice", t);
+      if (!edges.emplace(edge_key(from, to), uint32_t(t)).second) {
+        return "two triangles have an edge in the same direction; " + text_of(surface, t);
+      }
+      ++degree[from];
+    }
+  }
+  for (const auto& [key, triangle] : edges) {
+    if (!edges.contains(key << 32 | key >> 32)) {
+      return "an edge has no second triangle; " + text_of(surface, triangle);
+    }
+  }
+  // Turning about a vertex from any of its triangles must meet all of them.
+  std::vector<bool> is_seen(vertices);
+  for (const auto& triangle : surface.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t center = triangle[i];
+      if (is_seen[center]) continue;
+      is_seen[center] = true;
+      uint32_t count = 0;
+      uint32_t spoke = triangle[(i + 1) % 3];
+      const uint32_t first = spoke;
+      do {
+        const auto& own = surface.triangles[edges.at(edge_key(center, spoke))];
+        for (const uint32_t corner : own) {
+          if (corner == center || corner == spoke) continue;
+          spoke = corner;
+          break;
+        }
+        ++count;
+      } while (spoke != first && count <= degree[center]);
+      if (count != degree[center]) {
+        return "the triangles of a vertex are not one fan; it is " +
+               text_of(surface.vertices[center]);
+      }
+    }
+  }
+  return "";
+}
+
+uint64_t flat_triangles(const TriangleSet& surface) {
+  uint64_t flat = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const WideVec u = WideVec(surface.vertices[b]) - WideVec(surface.vertices[a]);
+    const WideVec v = WideVec(surface.vertices[c]) - WideVec(surface.vertices[a]);
+    flat += glm::cross(u, v) == WideVec(0);
+  }
+  return flat;
+}
+
+std::string crossing_flaw(const TriangleSet& surface) {
+  const Wide rounding = kRoundingShare * largest_coordinate(surface.vertices);
+  std::vector<Corners> corners;
+  std::vector<csgcore::Box> boxes;
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    corners.push_back(corners_of(surface, t));
+    csgcore::Box box;
+    for (const uint32_t corner : surface.triangles[t]) box.merge(surface.vertices[corner]);
+    boxes.push_back(box);
+  }
+  std::vector<uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return boxes[a].min.x < boxes[b].min.x; });
+  std::vector<uint32_t> open;  // triangles that the sweep along x is in
+  for (const uint32_t t : order) {
+    std::erase_if(open, [&](uint32_t other) { return boxes[other].max.x < boxes[t].min.x; });
+    for (const uint32_t other : open) {
+      const csgcore::Box &a = boxes[t], &b = boxes[other];
+      if (a.min.y > b.max.y || b.min.y > a.max.y || a.min.z > b.max.z || b.min.z > a.max.z) {
+        continue;
+      }
+      const Wide size = crossing_size(corners[t], corners[other], rounding);
+      if (size > rounding) {
+        return text("triangles cross by %.3Lg; ", size) + text_of(surface, other) + "; " +
+               text_of(surface, t);
+      }
+    }
+    open.push_back(t);
+  }
+  return "";
+}
+
+long double volume_of(const TriangleSet& surface) {
+  if (surface.vertices.empty()) return 0;
+  const WideVec origin(surface.vertices[0]);
+  Wide sum = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const WideVec u = WideVec(surface.vertices[a]) - origin;
+    const WideVec v = WideVec(surface.vertices[b]) - origin;
+    sum += glm::dot(glm::cross(u, v), WideVec(surface.vertices[c]) - origin);
+  }
+  return sum / 6;
+}
+
+long double area_of(const TriangleSet& surface) {
+  Wide sum = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const WideVec origin(surface.vertices[a]);
+    sum += glm::length(
+        glm::cross(WideVec(surface.vertices[b]) - origin, WideVec(surface.vertices[c]) - origin));
+  }
+  return sum / 2;
+}
+
+long double edge_length_of(const TriangleSet& surface) {
+  Wide sum = 0;
+  for (const auto& triangle : surface.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      sum += glm::length(WideVec(surface.vertices[triangle[i]]) -
+                         WideVec(surface.vertices[triangle[(i + 1) % 3]]));
+    }
+  }
+  return sum / 2;
+}
+
+/// A line along an axis, through a point of the next two axes.
+struct LineJudge::Line {
+  int axis = 0;
+  double u = 0, v = 0;
+};
+
+struct LineJudge::Crossing {
+  Wide at, error;
+  int turn;         // 1: the line enters
+  int64_t operand;  // or -1: the result
+  size_t triangle;
+};
+
+LineJudge::LineJudge(std::span<const TriangleSet> operands, const csgcore::CsgTree& tree,
+                     const csgcore::BoundaryMesh& result)
+    : operands_(operands), tree_(tree), result_(result) {
+  double largest = 0;
+  for (const TriangleSet& operand : operands) {
+    for (const Vec3& vertex : operand.vertices) box_.merge(vertex);
+    largest = std::max(largest, largest_coordinate(operand.vertices));
+  }
+  rounding_ = kRoundingShare * largest;
+}
+
+LineJudge::Line LineJudge::random_line(std::mt19937& random) const {
+  std::uniform_real_distribution<double> uniform(-0.05, 1.05);
+  Vec3 point = box_.min + box_.size() * Vec3(uniform(random), uniform(random), uniform(random));
+  const TriangleSet& surface = random() % 2 ? operands_[random() % operands_.size()]
+                                            : static_cast<const TriangleSet&>(result_);
+  if (random() % 2 && !surface.vertices.empty()) {
+    // By a random step that is now small and now large.
+    const double step = std::exp2(-40.0 * std::abs(uniform(random)));
+    point = surface.vertices[random() % surface.vertices.size()] + step * (point - box_.center());
+  }
+  const int axis = static_cast<int>(random() % 3);
+  return {axis, point[(axis + 1) % 3], point[(axis + 2) % 3]};
+}
+
+std::string LineJudge::flaw(uint32_t lines, uint32_t seed, LineTotals& totals) const {
+  if (box_.empty()) return "";
+  std::mt19937 random(seed);
+  for (uint32_t i = 0; i < lines; ++i) {
+    const std::string found = flaw_along(random_line(random), totals);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+std::string LineJudge::flaw_along(const Line& line, LineTotals& totals) const {
+  ++totals.lines;
+  const int axis = line.axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  std::vector<Crossing> crossings;
+  bool is_decided = true;
+  const auto collect = [&](const TriangleSet& surface, int64_t operand) {
+    for (size_t t = 0; t < surface.triangles.size(); ++t) {
+      Vec3 p[3];
+      for (size_t i = 0; i < 3; ++i) p[i] = surface.vertices[surface.triangles[t][i]];
+      if (std::max({p[0][u], p[1][u], p[2][u]}) < line.u ||
+          std::min({p[0][u], p[1][u], p[2][u]}) > line.u ||
+          std::max({p[0][v], p[1][v], p[2][v]}) < line.v ||
+          std::min({p[0][v], p[1][v], p[2][v]}) > line.v) {
+        continue;
+      }
+      // The differences have relative errors of one unit, and the products of some more.
+      Turn turns[3];
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
+        const Wide left = (Wide(a[u]) - line.u) * (Wide(b[v]) - line.v);
+        const Wide right = (Wide(a[v]) - line.v) * (Wide(b[u]) - line.u);
+        turns[i] = {left - right, 8 * kWideEpsilon * (std::abs(left) + std::abs(right))};
+      }
+      const bool is_left = turns[0].sign() < 0 || turns[1].sign() < 0 || turns[2].sign() < 0;
+      const bool is_right = turns[0].sign() > 0 || turns[1].sign() > 0 || turns[2].sign() > 0;
+      if (is_left && is_right) continue;
+      if (turns[0].sign() == 0 || turns[1].sign() == 0 || turns[2].sign() == 0) {
+        is_decided = false;
+        return;
+      }
+      const Wide sum = turns[0].value + turns[1].value + turns[2].value;
+      Wide at = 0;
+      for (int i = 0; i < 3; ++i) at += turns[i].value / sum * p[i][axis];
+      const WideVec normal =
+          glm::cross(WideVec(p[1]) - WideVec(p[0]), WideVec(p[2]) - WideVec(p[0]));
+      const Wide steepness = std::abs(normal[axis]) / glm::length(normal);
+      crossings.push_back({at, rounding_ / steepness, is_left ? 1 : -1, operand, t});
+    }
+  };
+  for (size_t i = 0; i < operands_.size() && is_decided; ++i) {
+    collect(operands_[i], static_cast<int64_t>(i));
+  }
+  if (is_decided) collect(result_, -1);
+  if (!is_decided) {
+    ++totals.undecided;
+    return "";
+  }
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& a, const Crossing& b) { return a.at - a.error < b.at - b.error; });
+
+  const auto where = [&](Wide at) {
+    Vec3 point(0.0);
+    point[axis] = double(at);
+    point[u] = line.u;
+    point[v] = line.v;
+    return text_of(point) + text(" on a line along axis %d", axis);
+  };
+  std::vector<int> winding(operands_.size()), winding_before;
+  int result_winding = 0;
+  std::vector<Change> stack;
+  // Returns the change of the tree between the two windings.
+  const auto change = [&](const std::vector<int>& before, const std::vector<int>& after) {
+    stack.clear();
+    for (const CsgToken& token : tree_.tokens()) {
+      if (token.is_primitive) {
+        const bool is_before = before[token.value] != 0, is_after = after[token.value] != 0;
+        stack.push_back({is_before, is_after, is_before != is_after ? int64_t(token.value) : -1});
+        continue;
+      }
+      const size_t first = stack.size() - token.value;
+      const Change own = combined(token.op, std::span(stack).subspan(first));
+      stack.resize(first);
+      stack.push_back(own);
+    }
+    return stack.empty() ? Change{false, false, -1} : stack.back();
+  };
+  for (size_t i = 0; i < crossings.size();) {
+    // A cluster: crossings that rounding may have ordered.
+    winding_before = winding;
+    const int result_before = result_winding;
+    const size_t first = i;
+    Wide end = crossings[i].at + crossings[i].error;
+    const Crossing* of_result = nullptr;
+    size_t result_crossings = 0;
+    for (; i < crossings.size() && crossings[i].at - crossings[i].error <= end; ++i) {
+      const Crossing& crossing = crossings[i];
+      end = std::max(end, crossing.at + crossing.error);
+      if (crossing.operand < 0) {
+        result_winding += crossing.turn;
+        of_result = &crossing;
+        ++result_crossings;
+      } else {
+        winding[static_cast<size_t>(crossing.operand)] += crossing.turn;
+      }
+    }
+    const Change turned = change(winding_before, winding);
+    const Wide next = i < crossings.size() ? crossings[i].at - crossings[i].error : end + 1;
+    ++totals.points;
+    totals.points_inside += turned.after;
+    if (result_winding != (turned.after ? 1 : 0)) {
+      return text("the winding number is %d and should be %d at ", result_winding,
+                  turned.after ? 1 : 0) +
+             where((end + next) / 2);
+    }
+    if (result_crossings != 1 || result_before == result_winding) continue;
+    ++totals.faces;
+    uint32_t last = 0, changed = 0;
+    for (uint32_t k = 0; k < winding.size(); ++k) {
+      if ((winding_before[k] != 0) == (winding[k] != 0)) continue;
+      last = k;
+      ++changed;
+    }
+    totals.coincident += changed > 1;
+    totals.not_last += turned.shown != int64_t(last);
+    const uint32_t named = result_.operands[of_result->triangle];
+    if (int64_t(named) != turned.shown) {
+      const bool has_face =
+          named < winding.size() && (winding_before[named] != 0) != (winding[named] != 0);
+      return text(
+                 "a face names operand %u, which has %s face there, instead of %d (last with one: "
+                 "%u) at ",
+                 named, has_face ? "a" : "no", int(turned.shown), last) +
+             where(crossings[first].at);
+    }
+  }
+  if (result_winding != 0) return "the result is open along a line at " + where(0);
+  return "";
+}
+
+}  // namespace test_support

@@ -1,0 +1,80 @@
+// Judges a mesh by what it is made of, sharing nothing with csgcore: whether it is a closed
+// surface, whether it crosses itself, and, along random lines, whether it bounds what a tree makes
+// of its operands.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "csgcore/boundary_mesh.hpp"
+#include "csgcore/csg_tree.hpp"
+
+namespace test_support {
+
+/// What is further apart than this share of the largest coordinate is so by more than the rounding
+/// of vertices to double.
+constexpr double kRoundingShare = 1e-12;
+
+/// Returns what is wrong with the surface as a closed 2-manifold, or "". Each edge has two
+/// triangles, which run through it in opposite directions; the triangles of a vertex are one fan;
+/// indices exist, coordinates are finite, and no triangle names a vertex twice.
+std::string manifold_flaw(const csgcore::TriangleSet& surface);
+
+/// Returns how many triangles have vertices of different places and still no area.
+uint64_t flat_triangles(const csgcore::TriangleSet& surface);
+
+/// Returns what crosses in the surface, or "". Two triangles cross if each has vertices on both
+/// sides of the other's plane, and their stretches of the common line overlap; or if both lie in
+/// one plane and overlap there. All of these, measured as lengths, have to be larger than rounding:
+/// kRoundingShare of the largest coordinate. What touches does not cross.
+std::string crossing_flaw(const csgcore::TriangleSet& surface);
+
+long double volume_of(const csgcore::TriangleSet& surface);
+long double area_of(const csgcore::TriangleSet& surface);
+/// Returns the sum of the lengths of all edges. An error of the vertices times this, or times the
+/// area, bounds that of the area, or of the volume.
+long double edge_length_of(const csgcore::TriangleSet& surface);
+
+/// What a comparison along lines has seen.
+struct LineTotals {
+  uint64_t lines = 0;
+  uint64_t undecided = 0;  // lines that meet an edge up to rounding
+  uint64_t points = 0;     // between crossings, at which both were compared
+  uint64_t points_inside = 0;
+  uint64_t faces = 0;       // crossings of the result at which the named operand was compared
+  uint64_t coincident = 0;  // of these, where several operands have faces
+  uint64_t not_last = 0;    // of these, where the operand shown is not the last that has a face
+};
+
+/// Compares a result with its operands along random lines that are parallel to an axis, many of
+/// which pass near to corners. Between any two crossings that are apart, the winding number of the
+/// result must be 1 where the tree has the value that the operands' winding numbers give it, and
+/// else 0. Where the result is crossed, the operand that it names must be the one that NUMERICS.md
+/// shows: the last of those that make the tree change there.
+class LineJudge {
+ public:
+  /// What it is given has to outlive it.
+  LineJudge(std::span<const csgcore::TriangleSet> operands, const csgcore::CsgTree& tree,
+            const csgcore::BoundaryMesh& result);
+
+  /// Returns the first thing that is wrong, or "".
+  std::string flaw(uint32_t lines, uint32_t seed, LineTotals& totals) const;
+
+ private:
+  struct Line;
+  struct Crossing;
+  std::string flaw_along(const Line& line, LineTotals& totals) const;
+  Line random_line(std::mt19937& random) const;
+
+  std::span<const csgcore::TriangleSet> operands_;
+  const csgcore::CsgTree& tree_;
+  const csgcore::BoundaryMesh& result_;
+  csgcore::Box box_;
+  double rounding_;  // a length
+};
+
+}  // namespace test_support
