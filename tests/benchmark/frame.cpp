@@ -1,11 +1,6 @@
 #include "frame.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <random>
 #include <utility>
 
@@ -30,12 +25,6 @@ FrameSettings cornfield() {
   settings.front = glm::vec3{0xf9, 0xd7, 0x2c} / 255.0f;
   settings.back = glm::vec3{0x9d, 0xcb, 0x51} / 255.0f;
   return settings;
-}
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 /// Returns pixels that show something, and seeded ones of any kind: most wrong pixels of a wrong
@@ -125,11 +114,6 @@ Hits Subject::hits() const {
   return hits;
 }
 
-void give_up(const std::string& what) {
-  std::fprintf(stderr, "wrong answer: %s: no times\n", what.c_str());
-  std::exit(1);
-}
-
 void AnswerCheck::require_right(const Drawing& drawing) {
   if (first_.rgb.empty()) {
     if (!agrees_with_reference(subject_.scene(), subject_.view(), subject_.hits())) {
@@ -142,35 +126,12 @@ void AnswerCheck::require_right(const Drawing& drawing) {
   if (image.rgb != first_.rgb) give_up(name_of(drawing) + " draws another picture");
 }
 
-void Times::measure(const std::function<void()>& work) {
-  const std::clock_t start = std::clock();
-  wall_.push_back(time_ms(work));
-  cpu_.push_back(1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-}
-
-double Times::least() const { return *std::min_element(wall_.begin(), wall_.end()); }
-double Times::median() const { return median_of(wall_); }
-double Times::cpu() const { return median_of(cpu_); }
-
-double time_ms(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  const auto end = std::chrono::steady_clock::now();
-  return std::chrono::duration<double, std::milli>(end - start).count();
-}
-
 void report(const TraceStats& stats, benchmark::State& state) {
   state.counters["rays"] = static_cast<double>(stats.rays);
   state.counters["intersections"] = static_cast<double>(stats.intersections);
   state.counters["tiles"] = static_cast<double>(stats.tiles);
   state.counters["resolved_rays"] = static_cast<double>(stats.resolved_rays);
   state.counters["cull_ms"] = stats.cull_ms;
-}
-
-void report(const Times& times, benchmark::State& state) {
-  state.counters["median_ms"] = times.median();
-  state.counters["least_ms"] = times.least();
-  state.counters["cpu_ms"] = times.cpu();
 }
 
 }  // namespace frame_benchmark

@@ -1,19 +1,23 @@
-// Scenes prepared for drawing, the check of their pictures, and times, for the tracer's benchmarks.
+// Scenes prepared for drawing, and the check of their pictures, for the tracer's benchmarks.
 #pragma once
 
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "csgcore/scene.hpp"
 #include "csgcore/subdivision.hpp"
 #include "csgcore/tracer.hpp"
+#include "times.hpp"
 
 namespace frame_benchmark {
+
+using timing::give_up;
+using timing::report;
+using timing::time_ms;
+using timing::Times;
 
 /// Where a ray's candidate primitives come from.
 enum class Method { kTiles, kCells };
@@ -57,9 +61,6 @@ class Subject {
   mutable double subdivide_ms_ = 0;
 };
 
-/// Ends the program, so that nobody sees a time of a wrong answer.
-[[noreturn]] void give_up(const std::string& what);
-
 /// Compares what the drawing sees at some hundred pixels with the reference, and then the whole
 /// picture with the first that was drawn of the subject: all must be equal, bit for bit.
 class AnswerCheck {
@@ -73,26 +74,7 @@ class AnswerCheck {
   csgcore::Image first_;
 };
 
-/// The times of repetitions of the same work, in ms.
-class Times {
- public:
-  void measure(const std::function<void()>& work);
-  double last() const { return wall_.back(); }
-  double least() const;
-  double median() const;
-  /// The median of the processor time of all threads. It includes neither the load by other
-  /// programs nor how well the threads share the work.
-  double cpu() const;
-
- private:
-  std::vector<double> wall_, cpu_;
-};
-
-double time_ms(const std::function<void()>& work);
-
 /// Reports the counters of one frame.
 void report(const csgcore::TraceStats& stats, benchmark::State& state);
-/// Reports the times as median_ms, least_ms and cpu_ms.
-void report(const Times& times, benchmark::State& state);
 
 }  // namespace frame_benchmark
