@@ -38,12 +38,30 @@ std::string text_of(const TriangleSet& surface, size_t triangle) {
   return result;
 }
 
-double largest_coordinate(std::span<const Vec3> points) {
+double largest_coordinate(const csgcore::Box& box) {
   double largest = 0;
-  for (const Vec3& p : points) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (int axis = 0; axis < 3; ++axis) {
+    largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
   }
-  return largest;
+  return box.empty() ? 0 : largest;
+}
+
+/// Returns how far the rounding of its corners to double may move a face.
+double corner_rounding(const csgcore::Box& box) {
+  return 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(box);
+}
+
+/// Returns the length below which differences are taken for rounding.
+double judged_rounding(const csgcore::Box& box) {
+  if (box.empty()) return 0;
+  const Vec3 size = box.size();
+  return 0.5 * kRoundingShare * std::max({size.x, size.y, size.z}) + corner_rounding(box);
+}
+
+csgcore::Box box_of(const TriangleSet& surface) {
+  csgcore::Box box;
+  for (const Vec3& vertex : surface.vertices) box.merge(vertex);
+  return box;
 }
 
 uint64_t edge_key(uint32_t from, uint32_t to) { return uint64_t(from) << 32 | to; }
@@ -251,7 +269,7 @@ uint64_t flat_triangles(const TriangleSet& surface) {
 }
 
 std::string crossing_flaw(const TriangleSet& surface) {
-  const Wide rounding = kRoundingShare * largest_coordinate(surface.vertices);
+  const Wide rounding = judged_rounding(box_of(surface));
   std::vector<Corners> corners;
   std::vector<csgcore::Box> boxes;
   for (size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -332,12 +350,8 @@ struct LineJudge::Crossing {
 LineJudge::LineJudge(std::span<const TriangleSet> operands, const csgcore::CsgTree& tree,
                      const csgcore::BoundaryMesh& result)
     : operands_(operands), tree_(tree), result_(result) {
-  double largest = 0;
-  for (const TriangleSet& operand : operands) {
-    for (const Vec3& vertex : operand.vertices) box_.merge(vertex);
-    largest = std::max(largest, largest_coordinate(operand.vertices));
-  }
-  rounding_ = kRoundingShare * largest;
+  for (const TriangleSet& operand : operands) box_.merge(box_of(operand));
+  rounding_ = judged_rounding(box_);
 }
 
 LineJudge::Line LineJudge::random_line(std::mt19937& random) const {
@@ -469,6 +483,15 @@ std::string LineJudge::flaw_along(const Line& line, LineTotals& totals) const {
              where((end + next) / 2);
     }
     if (result_crossings != 1 || result_before == result_winding) continue;
+    // Faces that are nearly coincident are no business of this.
+    const Wide least = corner_rounding(box_) / rounding_;
+    const bool is_one_face =
+        std::all_of(crossings.begin() + std::ptrdiff_t(first),
+                    crossings.begin() + std::ptrdiff_t(i), [&](const Crossing& crossing) {
+                      return std::abs(crossing.at - of_result->at) <=
+                             least * std::max(crossing.error, of_result->error);
+                    });
+    if (!is_one_face) continue;
     ++totals.faces;
     uint32_t last = 0, changed = 0;
     for (uint32_t k = 0; k < winding.size(); ++k) {

@@ -15,8 +15,8 @@
 
 namespace test_support {
 
-/// What is further apart than this share of the largest coordinate is so by more than the rounding
-/// of vertices to double.
+/// What is further apart than this share of half the size is so by more than rounding, except that
+/// of vertices to double far from the origin, which is added.
 constexpr double kRoundingShare = 1e-12;
 
 /// Returns what is wrong with the surface as a closed 2-manifold, or "". Each edge has two
@@ -29,8 +29,8 @@ uint64_t flat_triangles(const csgcore::TriangleSet& surface);
 
 /// Returns what crosses in the surface, or "". Two triangles cross if each has vertices on both
 /// sides of the other's plane, and their stretches of the common line overlap; or if both lie in
-/// one plane and overlap there. All of these, measured as lengths, have to be larger than rounding:
-/// kRoundingShare of the largest coordinate. What touches does not cross.
+/// one plane and overlap there. All of these, measured as lengths, have to be larger than rounding
+/// (kRoundingShare). What touches does not cross.
 std::string crossing_flaw(const csgcore::TriangleSet& surface);
 
 long double volume_of(const csgcore::TriangleSet& surface);
@@ -74,7 +74,7 @@ class LineJudge {
   const csgcore::CsgTree& tree_;
   const csgcore::BoundaryMesh& result_;
   csgcore::Box box_;
-  double rounding_;  // a length
+  double rounding_;  // the length below which differences are taken for rounding
 };
 
 }  // namespace test_support
