@@ -1,5 +1,5 @@
 // Compares volume and area of the mesh kernel's results with those of Nef polyhedra, on random
-// trees of polyhedra that touch. The full run has 400 of them; SCADRAY_TEST_TREES sets another
+// trees of polyhedra that touch. The full run has 4,000 of them; SCADRAY_TEST_TREES sets another
 // number.
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ using test_support::MeshParts;
 using test_support::RandomSolid;
 
 constexpr uint32_t kParts = 4;  // so that they run side by side
-constexpr uint32_t kFullTrees = 400;
-constexpr uint32_t kSampleTrees = 40;
+constexpr uint32_t kFullTrees = 4'000;
+constexpr uint32_t kSampleTrees = 160;
 constexpr double kMostDifference = 1e-9;  // relative
 
 uint32_t trees_of_a_part() {
