@@ -468,15 +468,15 @@ std::string RandomSolid::as_openscad() const {
   };
   for (const Step& step : steps) {
     if (step.kind == Step::Kind::kOpen) add("%s() {\n", kNames[size_t(step.op)]);
-    if (step.kind == Step::Kind::kClose) add("}\n");
+    if (step.kind == Step::Kind::kClose) text += "}\n";
     if (step.kind != Step::Kind::kOperand) continue;
     add("/* operand %u */ polyhedron([", step.operand);
     const MeshParts& surface = operands[step.operand].surface;
     for (const Vec3& p : surface.vertices) add("[%.17g, %.17g, %.17g], ", p.x, p.y, p.z);
-    add("], [");
+    text += "], [";
     // OpenSCAD lists a face clockwise.
     for (const auto& [a, b, c] : surface.triangles) add("[%u, %u, %u], ", a, c, b);
-    add("]);\n");
+    text += "]);\n";
   }
   return text;
 }
