@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "csgcore/facets.hpp"
+#include "models.hpp"
 
 namespace test_support {
 namespace {
@@ -24,6 +25,7 @@ using Rule = SolidOperand::Rule;
 using Step = RandomSolid::Step;
 
 constexpr uint32_t kMostOperands = 10;
+constexpr uint32_t kManyOperands = 40;  // of some trees
 constexpr int kMostDepth = 4;
 /// What a face is moved by to make a sliver. It is 1e-9, rounded to the finest step of coordinates.
 constexpr double kSliver = 0x1p-30;
@@ -257,6 +259,11 @@ SolidOperand fresh_operand(Random& random) {
     }
   }
   if (random() % 2) map(operand, signed_permutation(random));
+  if (random() % 8 == 0) {
+    map(operand, random_affine(random).linear);
+    operand.surface = rounded(operand.surface);
+    for (MeshParts& shell : operand.shells) shell = rounded(shell);
+  }
   if (random() % 2) move(operand, lattice_point(random, -3, 3));
   if (random() % 8 == 0) operand.surface = operand.surface.inside_out();
   return operand;
@@ -484,8 +491,8 @@ std::string RandomSolid::as_openscad() const {
 RandomSolid random_solid(uint32_t seed) {
   Random random(seed);
   RandomSolid solid;
-  const uint32_t count =
-      random() % 3 ? uint32_t(whole(random, 2, 4)) : 1 + random() % kMostOperands;
+  uint32_t count = random() % 3 ? uint32_t(whole(random, 2, 4)) : 1 + random() % kMostOperands;
+  if (random() % 50 == 0) count = kManyOperands;
   while (solid.operands.size() < count) {
     const bool is_related = !solid.operands.empty() && by_chance(random, 0.5);
     solid.operands.push_back(

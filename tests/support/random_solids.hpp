@@ -55,7 +55,7 @@ struct RandomSolid {
   std::string as_openscad() const;
 };
 
-/// Returns a random solid of up to a dozen operands, the same for the same seed. All coordinates
+/// Returns a random solid, mostly of a few operands, the same for the same seed. All coordinates
 /// are multiples of 2^-30, and less than 2^9 from a common middle, so that the rounding to 2^-39 of
 /// that separates no faces that coincide.
 RandomSolid random_solid(uint32_t seed);
