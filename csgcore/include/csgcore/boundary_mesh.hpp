@@ -15,6 +15,8 @@ namespace csgcore {
 struct TriangleSet {
   std::vector<Vec3> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
+  /// It is known to be in one piece, and not to cross or touch itself, which saves time.
+  bool is_simple = false;
 };
 
 /// The boundary of a solid. Each edge has two triangles, which run through it in opposite
@@ -29,9 +31,9 @@ struct BoundaryMesh : TriangleSet {
 /// is closed, which is not checked, and its coordinates are finite; it may cross itself and turn
 /// either way.
 ///
-/// Coordinates are rounded once, to 2^-39 of the largest distance from the middle of all operands
-/// along an axis; what follows is exact, and the vertices of the result are rounded to double. Of
-/// coincident faces the operand with the largest number is named. The result does not depend on the
+/// Coordinates are rounded once, to 2^-36 of half the longest side of the box of all operands or
+/// finer; what follows is exact, and the vertices of the result are rounded to double. Of
+/// coincident faces one is shown as NUMERICS.md §1.4 defines. The result does not depend on the
 /// number of threads. Throws Stopped (stop_scope.hpp).
 BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree& tree);
 

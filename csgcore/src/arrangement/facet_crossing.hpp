@@ -1,0 +1,38 @@
+// Where two facets meet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "arrangement/facets.hpp"
+
+namespace csgcore {
+
+/// A facet, with what many predicates ask of it.
+struct PlacedFacet {
+  uint32_t number;
+  std::array<uint32_t, 3> names;  // of its corners
+  std::array<GridPoint, 3> corners;
+  GridPlane plane;
+};
+
+PlacedFacet placed(const Facets& facets, uint32_t facet);
+
+struct FacetCrossing {
+  enum class Kind : uint8_t {
+    kNone,
+    kLine,     // they meet in the segment from `start` to `end`, which may be one point
+    kCoplanar  // they lie in one plane, and have an area in common
+  };
+  Kind kind = Kind::kNone;
+  PointName start;
+  PointName end;
+  /// Facets of one plane that have no area in common: the corners of one that lie on an edge of
+  /// the other.
+  std::vector<Facets::Touch> touches{};
+};
+
+/// Returns where the facets meet, edges and corners included.
+FacetCrossing crossing_of(const PlacedFacet& t, const PlacedFacet& s);
+
+}  // namespace csgcore

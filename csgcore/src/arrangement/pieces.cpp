@@ -1,0 +1,162 @@
+#include "arrangement/pieces.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+
+#include "arrangement/disjoint_sets.hpp"
+
+namespace csgcore {
+namespace {
+
+struct SideOfPiece {
+  uint32_t a;  // of its edge's points the lesser, and the greater
+  uint32_t b;
+  uint32_t piece;
+  auto operator<=>(const SideOfPiece&) const = default;
+};
+
+}  // namespace
+
+Pieces::Pieces(const Facets& facets, const FacetPairs& pairs, const Sheets& sheets)
+    : facets_(facets), sheets_(sheets), corner_count_(facets.points.size()) {
+  number_points();
+  add_pieces();
+  find_patches(pairs);
+}
+
+/// Points with a name in common are one, and corners are named by their numbers.
+void Pieces::number_points() {
+  struct Named {
+    PointName name;
+    const ArrangedPoint* point;
+  };
+  std::vector<Named> named;
+  for (const Sheet& sheet : sheets_.sheets) {
+    for (const ArrangedPoint& point : sheet.points) {
+      if (point.name.kind() != PointName::kCorner) named.push_back({point.name, &point});
+    }
+    for (const auto& alias : sheet.aliases) {
+      if (alias.name.kind() != PointName::kCorner) {
+        named.push_back({alias.name, &sheet.points[alias.point]});
+      }
+    }
+  }
+  tbb::parallel_sort(named.begin(), named.end(), [](const Named& a, const Named& b) {
+    return std::pair(a.name, a.point) < std::pair(b.name, b.point);
+  });
+  std::vector<PointName> names;
+  std::vector<const ArrangedPoint*> points;
+  for (const Named& entry : named) {
+    if (!names.empty() && names.back() == entry.name) continue;
+    names.push_back(entry.name);
+    points.push_back(entry.point);
+  }
+  const auto number_of = [&](const PointName& name) {
+    if (name.kind() == PointName::kCorner) return name.numbers[1];
+    return static_cast<uint32_t>(
+        corner_count_ + static_cast<size_t>(std::ranges::lower_bound(names, name) - names.begin()));
+  };
+  DisjointSets same(corner_count_ + names.size());
+  numbers_.resize(sheets_.sheets.size());
+  const auto is_real = [](const PointName& name) {
+    return name.kind() != PointName::kCorner || name.numbers[1] != kNoPlace;
+  };
+  tbb::parallel_for(size_t{0}, numbers_.size(), [&](size_t i) {
+    for (const ArrangedPoint& point : sheets_.sheets[i].points) {
+      numbers_[i].push_back(is_real(point.name) ? number_of(point.name) : kNoPlace);
+    }
+  });
+  for (size_t i = 0; i < numbers_.size(); ++i) {
+    for (const auto& alias : sheets_.sheets[i].aliases) {
+      same.join(numbers_[i][alias.point], number_of(alias.name));
+    }
+  }
+  for (std::vector<uint32_t>& numbers : numbers_) {
+    for (uint32_t& number : numbers) {
+      if (number != kNoPlace) number = same.find(number);
+    }
+  }
+  named_ = std::move(points);
+}
+
+void Pieces::add_pieces() {
+  pieces_.reserve(facets_.facets.size());
+  for (uint32_t i = 0; i < facets_.facets.size(); ++i) {
+    pieces_.push_back({facets_.facets[i].corners, kNoPlace, i});
+  }
+  for (uint32_t i = 0; i < sheets_.sheets.size(); ++i) {
+    const Sheet& sheet = sheets_.sheets[i];
+    for (size_t j = 0; j < sheet.triangles.size(); ++j) {
+      const auto& [a, b, c] = sheet.triangles[j];
+      pieces_.push_back({{numbers_[i][a], numbers_[i][b], numbers_[i][c]}, i, sheet.cover_of[j]});
+    }
+  }
+}
+
+void Pieces::find_patches(const FacetPairs& pairs) {
+  DisjointSets patches(pieces_.size());
+  // Facets that are alone in a cell have the same solids around them. Others are compared with
+  // their neighbours.
+  std::vector<bool> is_alone(facets_.facets.size(), false);
+  for (const std::vector<uint32_t>& cell : pairs.alone) {
+    uint32_t first = kNoPlace;
+    for (const uint32_t facet : cell) {
+      if (sheets_.is_divided[facet]) continue;
+      is_alone[facet] = true;
+      if (first == kNoPlace) first = facet;
+      patches.join(first, facet);
+    }
+  }
+  std::vector<bool> is_paired(facets_.facets.size(), false);
+  for (const auto& [a, b] : pairs.pairs) {
+    is_paired[a] = true;
+    is_paired[b] = true;
+  }
+  std::vector<SideOfPiece> sides;
+  for (uint32_t i = 0; i < pieces_.size(); ++i) {
+    const bool is_facet = i < facets_.facets.size();
+    if (is_facet && (sheets_.is_divided[i] || (is_alone[i] && !is_paired[i]))) continue;
+    const auto& points = pieces_[i].points;
+    for (size_t j = 0; j < 3; ++j) {
+      const auto [a, b] = std::minmax(points[j], points[(j + 1) % 3]);
+      sides.push_back({a, b, i});
+    }
+  }
+  tbb::parallel_sort(sides.begin(), sides.end());
+  const auto have_same_operands = [&](const Piece& p, const Piece& q) {
+    const auto of_p = facets(p);
+    const auto of_q = facets(q);
+    if (of_p.size() == 1 && of_q.size() == 1) {
+      return facets_.facets[of_p[0]].operand == facets_.facets[of_q[0]].operand;
+    }
+    // Which of several turn the other way is not compared: within a sheet it is the same facets.
+    return p.sheet == q.sheet && p.cover == q.cover;
+  };
+  for (size_t begin = 0; begin < sides.size();) {
+    size_t end = begin + 1;
+    while (end < sides.size() && sides[end].a == sides[begin].a && sides[end].b == sides[begin].b) {
+      ++end;
+    }
+    if (end - begin == 2 &&
+        have_same_operands(pieces_[sides[begin].piece], pieces_[sides[begin + 1].piece])) {
+      patches.join(sides[begin].piece, sides[begin + 1].piece);
+    }
+    begin = end;
+  }
+  patches_.resize(pieces_.size());
+  for (uint32_t i = 0; i < patches_.size(); ++i) patches_[i] = patches.find(i);
+}
+
+ArrangedPoint Pieces::point(uint32_t number) const {
+  if (number < corner_count_) return grid_point(corner_name(number), facets_.points[number]);
+  return *named_[number - corner_count_];
+}
+
+int Pieces::axis(const Piece& piece) const {
+  return piece.sheet == kNoPlace ? facets_.plane(piece.cover).axis()
+                                 : sheets_.sheets[piece.sheet].axis;
+}
+
+}  // namespace csgcore

@@ -1,0 +1,60 @@
+// The arrangement of all facets: pieces, which no surface crosses, and the patches that they form.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "arrangement/facet_pairs.hpp"
+#include "arrangement/facets.hpp"
+#include "arrangement/sheets.hpp"
+
+namespace csgcore {
+
+/// A facet that nothing divides, or a triangle of a sheet.
+struct Piece {
+  std::array<uint32_t, 3> points;  // places in Pieces::points
+  uint32_t sheet;                  // kNoPlace: it is a facet by itself
+  uint32_t cover;                  // of the sheet; or the facet
+};
+
+class Pieces {
+ public:
+  /// Keeps references to all arguments.
+  Pieces(const Facets& facets, const FacetPairs& pairs, const Sheets& sheets);
+
+  /// Facets first, then the triangles of sheets. Facets that are part of a sheet are no pieces.
+  const std::vector<Piece>& all() const { return pieces_; }
+  bool is_divided(uint32_t piece) const {
+    return piece < facets_.facets.size() && sheets_.is_divided[piece];
+  }
+  /// Returns the facets that lie there.
+  std::span<const uint32_t> facets(const Piece& piece) const {
+    return piece.sheet == kNoPlace ? std::span(&piece.cover, 1)
+                                   : sheets_.sheets[piece.sheet].covers[piece.cover];
+  }
+  /// By piece: the first piece of its patch. The pieces of a patch have the same solids before and
+  /// behind them, and facets of the same operands, turned the same way.
+  const std::vector<uint32_t>& patches() const { return patches_; }
+  /// Returns a point: a corner of facets, or one of a sheet.
+  ArrangedPoint point(uint32_t number) const;
+  size_t point_count() const { return corner_count_ + named_.size(); }
+  size_t corner_count() const { return corner_count_; }
+  /// The axis along which the piece's plane is drawn.
+  int axis(const Piece& piece) const;
+
+ private:
+  void number_points();
+  void add_pieces();
+  void find_patches(const FacetPairs& pairs);
+
+  const Facets& facets_;
+  const Sheets& sheets_;
+  size_t corner_count_;
+  std::vector<const ArrangedPoint*> named_;     // points that are no corners
+  std::vector<std::vector<uint32_t>> numbers_;  // by sheet and its point
+  std::vector<Piece> pieces_;                   // facets first
+  std::vector<uint32_t> patches_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,329 @@
+#include "arrangement/sheets.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "arrangement/disjoint_sets.hpp"
+#include "arrangement/facet_crossing.hpp"
+#include "csgcore/stop_scope.hpp"
+
+namespace csgcore {
+namespace {
+
+/// What a facet has of another one, or of a point (`other` is kNoPlace, and start is end).
+struct Trace {
+  uint32_t facet;
+  uint32_t other;
+  PointName start;
+  PointName end;
+  auto operator<=>(const Trace&) const = default;
+};
+
+struct Found {
+  std::vector<Trace> traces;
+  std::vector<std::pair<uint32_t, uint32_t>> coplanar;
+};
+
+Trace touch(uint32_t facet, uint32_t corner) {
+  return {facet, kNoPlace, corner_name(corner), corner_name(corner)};
+}
+
+class SheetMaker {
+ public:
+  SheetMaker(const Facets& facets, const FacetPairs& pairs)
+      : facets_(facets), pairs_(pairs.pairs), planes_(facets.facets.size()) {}
+
+  Sheets run() {
+    find_traces();
+    const std::vector<std::pair<size_t, size_t>> ranges = ranges_of_planes();
+    Sheets result;
+    result.sheets.resize(ranges.size());
+    result.is_divided.assign(facets_.facets.size(), false);
+    for (const Trace& trace : traces_) result.is_divided[trace.facet] = true;
+    const std::stop_token* const stop = stop_of_work;
+    tbb::parallel_for(size_t{0}, ranges.size(), [&](size_t i) {
+      const StopScope scope(stop);
+      stop_point();
+      result.sheets[i] = sheet(ranges[i].first, ranges[i].second);
+    });
+    return result;
+  }
+
+ private:
+  void find_traces() {
+    tbb::enumerable_thread_specific<Found> found;
+    const std::stop_token* const stop = stop_of_work;
+    constexpr size_t kAtOnce = 1024;
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, pairs_.size(), kAtOnce),
+                      [&](const auto& range) {
+                        const StopScope scope(stop);
+                        stop_point();
+                        PlacedFacet t{};
+                        for (size_t i = range.begin(); i < range.end(); ++i) {
+                          if (i == range.begin() || t.number != pairs_[i].first) {
+                            t = placed(facets_, pairs_[i].first);
+                          }
+                          add_crossing(t, placed(facets_, pairs_[i].second), found.local());
+                        }
+                      });
+    for (const Facets::Touch& at : facets_.touches) traces_.push_back(touch(at.facet, at.point));
+    for (const Found& part : found) {
+      traces_.insert(traces_.end(), part.traces.begin(), part.traces.end());
+      for (const auto& [a, b] : part.coplanar) planes_.join(a, b);
+    }
+    for (const Found& part : found) {
+      for (const auto& [a, b] : part.coplanar) {
+        // A trace that only says that the facet is part of a sheet.
+        traces_.push_back(touch(a, facets_.facets[a].corners[0]));
+        traces_.push_back(touch(b, facets_.facets[b].corners[0]));
+      }
+    }
+    for (Trace& trace : traces_) {
+      trace.start = with_planes(trace.start);
+      trace.end = with_planes(trace.end);
+    }
+    tbb::parallel_sort(traces_.begin(), traces_.end(), [&](const Trace& a, const Trace& b) {
+      return std::tuple(plane_of(a.facet), a) < std::tuple(plane_of(b.facet), b);
+    });
+  }
+
+  uint32_t plane_of(uint32_t facet) const { return planes_.find_only(facet); }
+
+  /// Facets of one plane are named by the first of them, so that a point has few names.
+  PointName with_planes(PointName name) const {
+    if (name.kind() == PointName::kEdgeAndFacet) name.numbers[3] = plane_of(name.numbers[3]);
+    return name;
+  }
+
+  void add_crossing(const PlacedFacet& t, const PlacedFacet& s, Found& found) const {
+    const bool is_one_operand =
+        facets_.facets[t.number].operand == facets_.facets[s.number].operand;
+    const auto common =
+        is_one_operand
+            ? std::ranges::count_if(
+                  t.names,
+                  [&](uint32_t name) { return std::ranges::find(s.names, name) != s.names.end(); })
+            : 0;
+    const FacetCrossing crossing = crossing_of(t, s);
+    if (crossing.kind == FacetCrossing::Kind::kCoplanar) {
+      found.coplanar.emplace_back(t.number, s.number);
+      return;
+    }
+    // Neighbours of one surface meet in what they have in common.
+    if (common >= 2) return;
+    for (const Facets::Touch& at : crossing.touches) {
+      const auto& corners = facets_.facets[at.facet].corners;
+      if (std::ranges::find(corners, at.point) != corners.end()) continue;
+      found.traces.push_back(touch(at.facet, at.point));
+    }
+    if (crossing.kind == FacetCrossing::Kind::kNone) return;
+    if (common == 1 && crossing.start == crossing.end) return;
+    found.traces.push_back({t.number, s.number, crossing.start, crossing.end});
+    found.traces.push_back({s.number, t.number, crossing.start, crossing.end});
+  }
+
+  std::vector<std::pair<size_t, size_t>> ranges_of_planes() const {
+    std::vector<std::pair<size_t, size_t>> result;
+    for (size_t begin = 0; begin < traces_.size();) {
+      size_t end = begin + 1;
+      while (end < traces_.size() &&
+             plane_of(traces_[end].facet) == plane_of(traces_[begin].facet)) {
+        ++end;
+      }
+      result.emplace_back(begin, end);
+      begin = end;
+    }
+    return result;
+  }
+
+  /// A line in the drawing of a sheet: an edge of one of its facets, or where another plane meets
+  /// it.
+  struct Line {
+    uint32_t facet = kNoPlace;       // of the other plane
+    std::array<uint32_t, 2> edge{};  // if there is none
+  };
+
+  ArrangedPoint arranged(const PointName& name, int axis) const {
+    const auto& [kind, a, b, c, d] = name.numbers;
+    const auto& points = facets_.points;
+    switch (name.kind()) {
+      case PointName::kCorner:
+        return grid_point(name, points[a]);
+      case PointName::kEdgeAndFacet:
+        return rational_point(name, meet(points[a], points[b], facets_.plane(c)));
+      case PointName::kEdgeAndEdge:
+        return rational_point(name,
+                              meet(points[a], points[b], plane_along(points[c], points[d], axis)));
+      case PointName::kThreeFacets:
+        break;
+    }
+    return rational_point(name, meet(facets_.plane(a), facets_.plane(b), facets_.plane(c)));
+  }
+
+  ArrangedPoint meet_of_lines(const Line& p, const Line& q, uint32_t plane, int axis) const {
+    if (p.facet == kNoPlace && q.facet == kNoPlace) {
+      return arranged(name_of_edges(p.edge[0], p.edge[1], q.edge[0], q.edge[1]), axis);
+    }
+    if (p.facet == kNoPlace) return arranged(name_of(p.edge[0], p.edge[1], q.facet), axis);
+    if (q.facet == kNoPlace) return arranged(name_of(q.edge[0], q.edge[1], p.facet), axis);
+    return arranged(name_of_planes(plane, p.facet, q.facet), axis);
+  }
+
+  Sheet sheet(size_t begin, size_t end) const {
+    std::vector<uint32_t> members;
+    for (size_t i = begin; i < end; ++i) {
+      if (members.empty() || members.back() != traces_[i].facet) {
+        members.push_back(traces_[i].facet);
+      }
+    }
+    const uint32_t plane = plane_of(members.front());
+    const int axis = facets_.plane(plane).axis();
+    std::vector<Line> lines;
+    PlanarSubdivision drawing(axis, [&](uint32_t p, uint32_t q) {
+      return meet_of_lines(lines[p], lines[q], plane, axis);
+    });
+    start(drawing, members);
+    // The edges of the facets are their first lines.
+    for (const uint32_t member : members) {
+      const auto& corners = facets_.facets[member].corners;
+      for (size_t i = 0; i < 3; ++i)
+        lines.push_back({kNoPlace, {corners[i], corners[(i + 1) % 3]}});
+    }
+    std::vector<std::pair<uint32_t, uint32_t>> ends;  // by trace
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t from = drawing.insert(arranged(traces_[i].start, axis));
+      const bool is_point = traces_[i].start == traces_[i].end;
+      ends.emplace_back(from, is_point ? from : drawing.insert(arranged(traces_[i].end, axis)));
+    }
+    if (members.size() > 1) {
+      for (size_t i = 0; i < lines.size(); ++i) {
+        const auto [a, b] = lines[i].edge;
+        const uint32_t from = drawing.insert(arranged(corner_name(a), axis));
+        const uint32_t to = drawing.insert(arranged(corner_name(b), axis));
+        drawing.draw(from, to, static_cast<uint32_t>(i));
+      }
+    }
+    for (size_t i = begin; i < end; ++i) {
+      if (ends[i - begin].first == ends[i - begin].second) continue;
+      lines.push_back({plane_of(traces_[i].other), {}});
+      drawing.draw(ends[i - begin].first, ends[i - begin].second,
+                   static_cast<uint32_t>(lines.size() - 1));
+    }
+    return finished(drawing, members);
+  }
+
+  /// Starts the drawing with the facet, or with a rectangle around all of them.
+  void start(PlanarSubdivision& drawing, const std::vector<uint32_t>& members) const {
+    const auto corner = [&](uint32_t point) {
+      return grid_point(corner_name(point), facets_.points[point]);
+    };
+    if (members.size() == 1) {
+      const auto& [a, b, c] = facets_.facets[members.front()].corners;
+      drawing.start(corner(a), corner(b), corner(c));
+      return;
+    }
+    GridPoint least = facets_.points[facets_.facets[members.front()].corners[0]];
+    GridPoint most = least;
+    for (const uint32_t member : members) {
+      for (const GridPoint& point : facets_.corners(member)) {
+        for (size_t i = 0; i < 3; ++i) {
+          least[i] = std::min(least[i], point[i] - 1);
+          most[i] = std::max(most[i], point[i] + 1);
+        }
+      }
+    }
+    const auto u = static_cast<size_t>(u_axis(drawing.axis()));
+    const auto v = static_cast<size_t>(v_axis(drawing.axis()));
+    GridPoint right = least;
+    right[u] = most[u];
+    GridPoint top = least;
+    top[v] = most[v];
+    const PointName none = corner_name(kNoPlace);
+    drawing.start(grid_point(none, least), grid_point(none, right), grid_point(none, most),
+                  grid_point(none, top));
+  }
+
+  static Sheet finished(const PlanarSubdivision& drawing, const std::vector<uint32_t>& members) {
+    Sheet result{drawing.axis(), drawing.points(), drawing.aliases(), {}, {}, {}};
+    if (members.size() == 1) {
+      for (const auto& triangle : drawing.triangles()) result.triangles.push_back(triangle.points);
+      result.cover_of.assign(result.triangles.size(), 0);
+      result.covers.push_back(members);
+      return result;
+    }
+    std::vector<std::vector<uint32_t>> covers{{}};
+    const std::vector<uint32_t> cover_of = covers_of(drawing, members, covers);
+    std::vector<uint32_t> number_of(covers.size(), kNoPlace);
+    for (size_t i = 0; i < cover_of.size(); ++i) {
+      const uint32_t cover = cover_of[i];
+      if (covers[cover].empty()) continue;
+      if (number_of[cover] == kNoPlace) {
+        number_of[cover] = static_cast<uint32_t>(result.covers.size());
+        result.covers.push_back(covers[cover]);
+      }
+      result.triangles.push_back(drawing.triangles()[i].points);
+      result.cover_of.push_back(number_of[cover]);
+    }
+    return result;
+  }
+
+  /// Returns by triangle which of `covers` it has, which is extended: facets begin and end at their
+  /// edges, and the first triangle, at the border, has none.
+  static std::vector<uint32_t> covers_of(const PlanarSubdivision& drawing,
+                                         const std::vector<uint32_t>& members,
+                                         std::vector<std::vector<uint32_t>>& covers) {
+    const auto& triangles = drawing.triangles();
+    std::map<std::vector<uint32_t>, uint32_t> numbers{{{}, 0}};
+    std::vector<uint32_t> result(triangles.size(), kNoPlace);
+    std::vector<uint32_t> open;
+    for (uint32_t i = 0; i < triangles.size() && open.empty(); ++i) {
+      if (std::ranges::find(triangles[i].beyond, kNoPlace) == triangles[i].beyond.end()) continue;
+      result[i] = 0;
+      open.push_back(i);
+    }
+    while (!open.empty()) {
+      const uint32_t at = open.back();
+      open.pop_back();
+      for (size_t edge = 0; edge < 3; ++edge) {
+        const uint32_t next = triangles[at].beyond[edge];
+        if (next == kNoPlace || result[next] != kNoPlace) continue;
+        std::vector<uint32_t> cover = covers[result[at]];
+        for (uint32_t link = triangles[at].lines[edge]; link != kNoPlace;
+             link = drawing.links()[link].next) {
+          const uint32_t line = drawing.links()[link].line;
+          if (line >= 3 * members.size()) continue;
+          const uint32_t member = members[line / 3];
+          const auto place = std::ranges::lower_bound(cover, member);
+          if (place != cover.end() && *place == member) {
+            cover.erase(place);
+          } else {
+            cover.insert(place, member);
+          }
+        }
+        const auto [known, is_new] = numbers.emplace(cover, static_cast<uint32_t>(covers.size()));
+        if (is_new) covers.push_back(std::move(cover));
+        result[next] = known->second;
+        open.push_back(next);
+      }
+    }
+    return result;
+  }
+
+  const Facets& facets_;
+  const std::vector<std::pair<uint32_t, uint32_t>>& pairs_;
+  DisjointSets planes_;  // facets of one plane that overlap
+  std::vector<Trace> traces_;
+};
+
+}  // namespace
+
+Sheets sheets_of(const Facets& facets, const FacetPairs& pairs) {
+  return SheetMaker(facets, pairs).run();
+}
+
+}  // namespace csgcore

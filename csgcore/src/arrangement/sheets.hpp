@@ -1,0 +1,34 @@
+// Facets, divided by all that meets them.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "arrangement/facet_pairs.hpp"
+#include "arrangement/facets.hpp"
+#include "arrangement/planar_subdivision.hpp"
+
+namespace csgcore {
+
+/// A facet, or several of one plane that overlap, divided into triangles which no surface crosses.
+struct Sheet {
+  int axis;  // along which its plane is drawn
+  std::vector<ArrangedPoint> points;
+  std::vector<PlanarSubdivision::Alias> aliases;
+  /// By triangle: its points, counterclockwise in the drawing, and which of `covers` it is.
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<uint32_t> cover_of;
+  /// Facets that lie over one another, in rising order; none is empty.
+  std::vector<std::vector<uint32_t>> covers;
+};
+
+struct Sheets {
+  std::vector<Sheet> sheets;
+  /// By facet: whether it is part of a sheet.
+  std::vector<bool> is_divided;
+};
+
+Sheets sheets_of(const Facets& facets, const FacetPairs& pairs);
+
+}  // namespace csgcore
