@@ -64,8 +64,7 @@ class PairSearch {
       std::ranges::move(found.alone, std::back_inserter(result.alone));
     }
     tbb::parallel_sort(result.pairs.begin(), result.pairs.end());
-    const auto [last, end] = std::ranges::unique(result.pairs);
-    result.pairs.erase(last, end);
+    result.pairs.erase(std::unique(result.pairs.begin(), result.pairs.end()), result.pairs.end());
     return result;
   }
 

@@ -329,7 +329,9 @@ void PlanarSubdivision::draw(uint32_t from, uint32_t to, uint32_t line) {
 
 /// Draws the segment up to the first point or line that it meets; the rest becomes open.
 void PlanarSubdivision::draw_step(const Segment& segment) {
-  const auto [from, to, line] = segment;
+  const uint32_t from = segment.from;
+  const uint32_t to = segment.to;
+  const uint32_t line = segment.line;
   Place edge{kNoPlace, 0};      // along which the segment starts
   uint32_t through = kNoPlace;  // the triangle through which it starts
   size_t corner = 0;            // its corner there
