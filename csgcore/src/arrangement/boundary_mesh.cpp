@@ -25,9 +25,10 @@ struct Kept {
   uint32_t operand = 0;  // whose face it shows
 };
 
-class Boundary {
+class BoundaryMaker {
  public:
-  Boundary(const Facets& facets, const Pieces& pieces, const CsgTree& tree, size_t operand_count)
+  BoundaryMaker(const Facets& facets, const Pieces& pieces, const CsgTree& tree,
+                size_t operand_count)
       : facets_(facets), pieces_(pieces), tree_(tree), operand_count_(operand_count) {}
 
   BoundaryMesh run() {
@@ -158,7 +159,7 @@ BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree&
   const FacetPairs pairs = facet_pairs(facets, may_cross_itself);
   const Sheets sheets = sheets_of(facets, pairs);
   const Pieces pieces(facets, pairs, sheets);
-  return Boundary(facets, pieces, tree, operands.size()).run();
+  return BoundaryMaker(facets, pieces, tree, operands.size()).run();
 }
 
 size_t open_edges(const TriangleSet& surface) {
