@@ -116,19 +116,6 @@ Stretch stretch_along(const Corners& triangle, const WideVec& direction) {
   return stretch;
 }
 
-/// Returns the part of the triangle in a plane that crosses it, along the direction.
-Stretch stretch_in(const Corners& triangle, const Sides& sides, const WideVec& direction) {
-  Stretch stretch;
-  for (int i = 0; i < 3; ++i) {
-    const int k = (i + 1) % 3;
-    const Wide a = sides.at[i], b = sides.at[k];
-    if ((a > 0) == (b > 0)) continue;
-    const Wide share = a / (a - b);
-    stretch.add(glm::dot(triangle.p[i] + share * (triangle.p[k] - triangle.p[i]), direction));
-  }
-  return stretch;
-}
-
 /// Returns how far both, which lie in one plane, overlap: the least way that separates them.
 Wide plane_overlap(const Corners& a, const Corners& b) {
   Wide least = std::numeric_limits<Wide>::infinity();
@@ -144,20 +131,25 @@ Wide plane_overlap(const Corners& a, const Corners& b) {
   return least;
 }
 
-/// Returns by how much two triangles cross, or a number ≤ `rounding`.
+/// Returns the shortest way by which one of two triangles that cross has to move until they do not,
+/// or a number ≤ `rounding`. It is along a normal of one of them, or across an edge of each (the
+/// axes of the separating axis theorem). If both lie in one plane, they do not leave it.
 Wide crossing_size(const Corners& a, const Corners& b, Wide rounding) {
   const Sides a_sides = sides_of(a, b), b_sides = sides_of(b, a);
   const bool a_is_flat = std::max(a_sides.above(), a_sides.below()) <= rounding;
   const bool b_is_flat = std::max(b_sides.above(), b_sides.below()) <= rounding;
   if (a_is_flat && b_is_flat) return plane_overlap(a, b);
-  const Wide depth = std::min({a_sides.above(), a_sides.below(), b_sides.above(), b_sides.below()});
-  if (depth <= rounding) return depth;
-  WideVec direction = glm::cross(a.normal, b.normal);
-  const Wide length = glm::length(direction);
-  if (!(length > 0)) return 0;
-  direction /= length;
-  return std::min(depth,
-                  overlap(stretch_in(a, a_sides, direction), stretch_in(b, b_sides, direction)));
+  Wide least = std::min({a_sides.above(), a_sides.below(), b_sides.above(), b_sides.below()});
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3 && least > rounding; ++k) {
+      const WideVec across = glm::cross(a.p[(i + 1) % 3] - a.p[i], b.p[(k + 1) % 3] - b.p[k]);
+      const Wide length = glm::length(across);
+      if (!(length > 0)) continue;
+      const WideVec axis = across / length;
+      least = std::min(least, overlap(stretch_along(a, axis), stretch_along(b, axis)));
+    }
+  }
+  return least;
 }
 
 // Lines.
@@ -345,13 +337,14 @@ struct LineJudge::Crossing {
   int turn;         // 1: the line enters
   int64_t operand;  // or -1: the result
   size_t triangle;
+  WideVec normal;
 };
 
 LineJudge::LineJudge(std::span<const TriangleSet> operands, const csgcore::CsgTree& tree,
-                     const csgcore::BoundaryMesh& result)
-    : operands_(operands), tree_(tree), result_(result) {
+                     const csgcore::BoundaryMesh& result, double input_rounding)
+    : operands_(operands), tree_(tree), result_(result), input_rounding_(input_rounding) {
   for (const TriangleSet& operand : operands) box_.merge(box_of(operand));
-  rounding_ = judged_rounding(box_);
+  rounding_ = std::max(judged_rounding(box_), input_rounding);
 }
 
 LineJudge::Line LineJudge::random_line(std::mt19937& random) const {
@@ -361,7 +354,8 @@ LineJudge::Line LineJudge::random_line(std::mt19937& random) const {
                                             : static_cast<const TriangleSet&>(result_);
   if (random() % 2 && !surface.vertices.empty()) {
     // By a random step that is now small and now large.
-    const double step = std::exp2(-40.0 * std::abs(uniform(random)));
+    const double step =
+        std::exp2((input_rounding_ > 0 ? -20.0 : -40.0) * std::abs(uniform(random)));
     point = surface.vertices[random() % surface.vertices.size()] + step * (point - box_.center());
   }
   const int axis = static_cast<int>(random() % 3);
@@ -413,8 +407,9 @@ std::string LineJudge::flaw_along(const Line& line, LineTotals& totals) const {
       for (int i = 0; i < 3; ++i) at += turns[i].value / sum * p[i][axis];
       const WideVec normal =
           glm::cross(WideVec(p[1]) - WideVec(p[0]), WideVec(p[2]) - WideVec(p[0]));
-      const Wide steepness = std::abs(normal[axis]) / glm::length(normal);
-      crossings.push_back({at, rounding_ / steepness, is_left ? 1 : -1, operand, t});
+      const Wide length = glm::length(normal), steepness = std::abs(normal[axis]) / length;
+      crossings.push_back(
+          {at, rounding_ / steepness, is_left ? 1 : -1, operand, t, normal / length});
     }
   };
   for (size_t i = 0; i < operands_.size() && is_decided; ++i) {
@@ -483,7 +478,8 @@ std::string LineJudge::flaw_along(const Line& line, LineTotals& totals) const {
              where((end + next) / 2);
     }
     if (result_crossings != 1 || result_before == result_winding) continue;
-    // Faces that are nearly coincident are no business of this.
+    // Faces that are nearly coincident, or meet in an edge nearby, are no business of this.
+    constexpr Wide kOneNormal = 1e-9L;
     const Wide least = corner_rounding(box_) / rounding_;
     const bool is_one_face =
         std::all_of(crossings.begin() + std::ptrdiff_t(first),

@@ -27,10 +27,8 @@ std::string manifold_flaw(const csgcore::TriangleSet& surface);
 /// Returns how many triangles have vertices of different places and still no area.
 uint64_t flat_triangles(const csgcore::TriangleSet& surface);
 
-/// Returns what crosses in the surface, or "". Two triangles cross if each has vertices on both
-/// sides of the other's plane, and their stretches of the common line overlap; or if both lie in
-/// one plane and overlap there. All of these, measured as lengths, have to be larger than rounding
-/// (kRoundingShare). What touches does not cross.
+/// Returns what crosses in the surface, or "". Two triangles cross if one has to move further than
+/// rounding (kRoundingShare) until they touch at most. If both lie in one plane, it moves within.
 std::string crossing_flaw(const csgcore::TriangleSet& surface);
 
 long double volume_of(const csgcore::TriangleSet& surface);
@@ -57,9 +55,10 @@ struct LineTotals {
 /// shows: the last of those that make the tree change there.
 class LineJudge {
  public:
-  /// What it is given has to outlive it.
+  /// What it is given has to outlive it. The operands' vertices may have been moved by
+  /// `input_rounding`: lines then keep away from corners.
   LineJudge(std::span<const csgcore::TriangleSet> operands, const csgcore::CsgTree& tree,
-            const csgcore::BoundaryMesh& result);
+            const csgcore::BoundaryMesh& result, double input_rounding = 0);
 
   /// Returns the first thing that is wrong, or "".
   std::string flaw(uint32_t lines, uint32_t seed, LineTotals& totals) const;
@@ -74,6 +73,7 @@ class LineJudge {
   const csgcore::CsgTree& tree_;
   const csgcore::BoundaryMesh& result_;
   csgcore::Box box_;
+  double input_rounding_;
   double rounding_;  // the length below which differences are taken for rounding
 };
 
