@@ -481,12 +481,13 @@ std::string LineJudge::flaw_along(const Line& line, LineTotals& totals) const {
     // Faces that are nearly coincident, or meet in an edge nearby, are no business of this.
     constexpr Wide kOneNormal = 1e-9L;
     const Wide least = corner_rounding(box_) / rounding_;
-    const bool is_one_face =
-        std::all_of(crossings.begin() + std::ptrdiff_t(first),
-                    crossings.begin() + std::ptrdiff_t(i), [&](const Crossing& crossing) {
-                      return std::abs(crossing.at - of_result->at) <=
-                             least * std::max(crossing.error, of_result->error);
-                    });
+    const bool is_one_face = std::all_of(
+        crossings.begin() + std::ptrdiff_t(first), crossings.begin() + std::ptrdiff_t(i),
+        [&](const Crossing& crossing) {
+          return std::abs(crossing.at - of_result->at) <=
+                     least * std::max(crossing.error, of_result->error) &&
+                 glm::length(glm::cross(crossing.normal, of_result->normal)) <= kOneNormal;
+        });
     if (!is_one_face) continue;
     ++totals.faces;
     uint32_t last = 0, changed = 0;
