@@ -106,8 +106,9 @@ struct Stretch {
   }
 };
 
+/// Returns how far one has to move until they do not overlap.
 Wide overlap(const Stretch& a, const Stretch& b) {
-  return std::min(a.high, b.high) - std::max(a.low, b.low);
+  return std::min(a.high - b.low, b.high - a.low);
 }
 
 Stretch stretch_along(const Corners& triangle, const WideVec& direction) {
@@ -133,12 +134,16 @@ Wide plane_overlap(const Corners& a, const Corners& b) {
 
 /// Returns the shortest way by which one of two triangles that cross has to move until they do not,
 /// or a number ≤ `rounding`. It is along a normal of one of them, or across an edge of each (the
-/// axes of the separating axis theorem). If both lie in one plane, they do not leave it.
+/// axes of the separating axis theorem). If both lie in one plane, they do not leave it; but if
+/// that is so up to rounding only, and they face opposite sides, they bound something thin.
 Wide crossing_size(const Corners& a, const Corners& b, Wide rounding) {
   const Sides a_sides = sides_of(a, b), b_sides = sides_of(b, a);
   const bool a_is_flat = std::max(a_sides.above(), a_sides.below()) <= rounding;
   const bool b_is_flat = std::max(b_sides.above(), b_sides.below()) <= rounding;
-  if (a_is_flat && b_is_flat) return plane_overlap(a, b);
+  if (a_is_flat && b_is_flat) {
+    const bool is_exact = a_sides.above() == 0 && a_sides.below() == 0;
+    return is_exact || glm::dot(a.normal, b.normal) > 0 ? plane_overlap(a, b) : 0;
+  }
   Wide least = std::min({a_sides.above(), a_sides.below(), b_sides.above(), b_sides.below()});
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3 && least > rounding; ++k) {

@@ -200,13 +200,13 @@ MeshParts simple_shape(Random& random) {
   }
 }
 
-/// A box with a cavity, which may touch its walls from within.
+/// A box with a cavity, which may touch its walls from within, and rounding may then cross them.
 SolidOperand hollow(Random& random) {
   const Vec3 min = lattice_point(random, -3, 0), size = lattice_point(random, 3, 5);
   const Vec3 gap = lattice_point(random, 0, 1);
   const MeshParts outer = box_parts(min, min + size);
   const MeshParts inner = box_parts(min + gap, min + gap + Vec3(whole(random, 1, 2)));
-  return {joined({outer, inner.inside_out()}), {outer, inner}, Rule::kDifference};
+  return {joined({outer, inner.inside_out()}), {outer, inner}, Rule::kSeparatePair};
 }
 
 SolidOperand two_shells(Random& random) {
@@ -242,15 +242,17 @@ SolidOperand self_crossing(Random& random) {
 }
 
 SolidOperand fresh_operand(Random& random) {
+  constexpr uint32_t kSelfCrossing = 2;
   SolidOperand operand;
-  switch (random() % 10) {
+  const uint32_t kind = random() % 10;
+  switch (kind) {
     case 0:
       operand = hollow(random);
       break;
     case 1:
       operand = two_shells(random);
       break;
-    case 2:
+    case kSelfCrossing:
       operand = self_crossing(random);
       break;
     default: {
@@ -259,7 +261,8 @@ SolidOperand fresh_operand(Random& random) {
     }
   }
   if (random() % 2) map(operand, signed_permutation(random));
-  if (random() % 8 == 0) {
+  // Where a surface crosses itself, its shells would be rounded otherwise.
+  if (random() % 8 == 0 && kind != kSelfCrossing) {
     map(operand, random_affine(random).linear);
     operand.surface = rounded(operand.surface);
     for (MeshParts& shell : operand.shells) shell = rounded(shell);
@@ -370,7 +373,7 @@ void add_shells(const SolidOperand& operand, uint32_t first_shell, CsgTreeBuilde
     add_operation(Op::kDifference, true);
     builder.close();
   } else {
-    add_operation(operand.rule == Rule::kDifference ? Op::kDifference : Op::kUnion, false);
+    add_operation(Op::kUnion, false);
   }
 }
 

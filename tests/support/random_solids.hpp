@@ -21,7 +21,6 @@ csgcore::TriangleSet surface_of(const MeshParts& parts);
 struct SolidOperand {
   enum class Rule : uint8_t {
     kUnion,
-    kDifference,    // the first shell minus the others
     kSeparatePair,  // the points that are in one of two shells, but not in both
     kUnknown,       // there are no such shells
   };
