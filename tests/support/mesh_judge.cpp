@@ -145,13 +145,20 @@ Wide crossing_size(const Corners& a, const Corners& b, Wide rounding) {
     return is_exact || glm::dot(a.normal, b.normal) > 0 ? plane_overlap(a, b) : 0;
   }
   Wide least = std::min({a_sides.above(), a_sides.below(), b_sides.above(), b_sides.below()});
+  const auto try_across = [&](const WideVec& u, const WideVec& v) {
+    const WideVec across = glm::cross(u, v);
+    const Wide length = glm::length(across);
+    if (least <= rounding || !(length > 0)) return;
+    least = std::min(least,
+                     overlap(stretch_along(a, across / length), stretch_along(b, across / length)));
+  };
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3 && least > rounding; ++k) {
-      const WideVec across = glm::cross(a.p[(i + 1) % 3] - a.p[i], b.p[(k + 1) % 3] - b.p[k]);
-      const Wide length = glm::length(across);
-      if (!(length > 0)) continue;
-      const WideVec axis = across / length;
-      least = std::min(least, overlap(stretch_along(a, axis), stretch_along(b, axis)));
+    const WideVec a_edge = a.p[(i + 1) % 3] - a.p[i], b_edge = b.p[(i + 1) % 3] - b.p[i];
+    for (int k = 0; k < 3; ++k) try_across(a_edge, b.p[(k + 1) % 3] - b.p[k]);
+    // Superfluous but for triangles so narrow that rounding turns them.
+    for (const WideVec& normal : {a.normal, b.normal}) {
+      try_across(a_edge, normal);
+      try_across(b_edge, normal);
     }
   }
   return least;
