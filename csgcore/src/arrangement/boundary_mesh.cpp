@@ -1,35 +1,23 @@
 #include "csgcore/boundary_mesh.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "arrangement/facet_pairs.hpp"
+#include "arrangement/cell_tree.hpp"
 #include "arrangement/facets.hpp"
 #include "arrangement/pieces.hpp"
 #include "arrangement/sheets.hpp"
-#include "arrangement/tree_sides.hpp"
-#include "arrangement/windings.hpp"
 #include "csgcore/stop_scope.hpp"
 
 namespace csgcore {
 namespace {
 
-/// What is kept of a patch.
-struct Kept {
-  /// 1: the solid is behind the patch's first facet, as it is behind that facet's operand; -1: it
-  /// is before it; 0: on both sides or on none, and nothing is kept.
-  int sign = 0;
-  uint32_t operand = 0;  // whose face it shows
-};
-
 class BoundaryMaker {
  public:
-  BoundaryMaker(const Facets& facets, const Pieces& pieces, const CsgTree& tree,
-                size_t operand_count)
-      : facets_(facets), pieces_(pieces), tree_(tree), operand_count_(operand_count) {}
+  BoundaryMaker(const Facets& facets, const CellTree& cells, const Pieces& pieces)
+      : facets_(facets), cells_(cells), pieces_(pieces) {}
 
   BoundaryMesh run() {
     judge_patches();
@@ -48,73 +36,51 @@ class BoundaryMaker {
     return glm::dot(area, area);
   }
 
-  /// Judges each patch at its largest piece, the first of several.
+  /// Judges each patch where its operand is alone, or at its largest piece, the first of several.
   void judge_patches() {
     const std::vector<Piece>& pieces = pieces_.all();
-    std::vector<double> areas(pieces.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, pieces.size(), 1024), [&](const auto& range) {
-      for (size_t i = range.begin(); i < range.end(); ++i) areas[i] = area_of(pieces[i]);
-    });
-    std::vector<uint32_t> largest(pieces.size(), kNoPlace);  // by a patch's first piece
-    std::vector<uint32_t> patches;
+    kept_.resize(pieces.size());
+    std::vector<bool> is_judged(pieces.size(), false);
+    for (const CellTree::Alone& cell : cells_.alone()) {
+      for (const uint32_t facet : cell.facets) {
+        if (pieces_.is_left_out(facet)) continue;
+        const uint32_t patch = pieces_.patches()[facet];
+        kept_[patch] = cell.kept;
+        is_judged[patch] = true;
+      }
+    }
+    std::vector<uint32_t> largest(pieces.size(), kNoPlace);  // by patch
+    std::vector<double> areas(pieces.size());                // by patch: of that piece
+    std::vector<uint32_t> open;
     for (uint32_t i = 0; i < pieces.size(); ++i) {
       const uint32_t patch = pieces_.patches()[i];
-      if (is_divided(i)) continue;
-      if (largest[patch] == kNoPlace) patches.push_back(patch);
-      if (largest[patch] == kNoPlace || areas[i] > areas[largest[patch]]) largest[patch] = i;
+      if (is_judged[patch] || pieces_.is_left_out(i)) continue;
+      const double area = area_of(pieces[i]);
+      if (largest[patch] == kNoPlace) open.push_back(patch);
+      if (largest[patch] != kNoPlace && area <= areas[patch]) continue;
+      largest[patch] = i;
+      areas[patch] = area;
     }
-    const Windings windings(facets_);
-    kept_.resize(pieces.size());
-    tbb::enumerable_thread_specific<TreeSides> sides(tree_, operand_count_);
     const std::stop_token* const stop = stop_of_work;
-    tbb::parallel_for(size_t{0}, patches.size(), [&](size_t i) {
+    tbb::parallel_for(size_t{0}, open.size(), [&](size_t i) {
       const StopScope scope(stop);
       stop_point();
-      kept_[patches[i]] = judged(pieces[largest[patches[i]]], windings, sides.local());
+      kept_[open[i]] = judged(pieces[largest[open[i]]]);
     });
   }
 
-  bool is_divided(uint32_t piece) const { return pieces_.is_divided(piece); }
+  KeptFace judged(const Piece& piece) const {
+    const std::array<ArrangedPoint, 3> points{pieces_.point(piece.points[0]),
+                                              pieces_.point(piece.points[1]),
+                                              pieces_.point(piece.points[2])};
+    return cells_.kept({&points[0], &points[1], &points[2]}, pieces_.axis(piece),
+                       pieces_.facets(piece));
+  }
 
   /// Returns 1 if the facet faces along the axis, -1 if against it.
   int facing(uint32_t facet, int axis) const {
     const auto [a, b, c] = facets_.corners(facet);
     return turn(a, b, c, axis);
-  }
-
-  Kept judged(const Piece& piece, const Windings& windings, TreeSides& sides) const {
-    const int axis = pieces_.axis(piece);
-    const std::array<ArrangedPoint, 3> points{pieces_.point(piece.points[0]),
-                                              pieces_.point(piece.points[1]),
-                                              pieces_.point(piece.points[2])};
-    const std::span<const uint32_t> over = pieces_.facets(piece);
-    Windings::Numbers ahead =
-        windings.at({&points[0], &points[1], &points[2]}, axis, over);  // along the axis
-    Windings::Numbers behind = ahead;
-    for (const uint32_t facet : over) {
-      const uint32_t operand = facets_.facets[facet].operand;
-      const auto place =
-          std::ranges::lower_bound(behind, operand, {}, &std::pair<uint32_t, int>::first);
-      const int crossed = facing(facet, axis);
-      if (place != behind.end() && place->first == operand) {
-        place->second += crossed;
-      } else {
-        behind.insert(place, {operand, crossed});
-      }
-    }
-    std::erase_if(behind, [](const auto& number) { return number.second == 0; });
-    const auto operands = [](const Windings::Numbers& numbers) {
-      std::vector<uint32_t> result;
-      for (const auto& [operand, number] : numbers) result.push_back(operand);
-      return result;
-    };
-    const std::vector<uint32_t> held_ahead = operands(ahead);
-    const std::vector<uint32_t> held_behind = operands(behind);
-    std::vector<uint32_t> changed;
-    std::ranges::set_symmetric_difference(held_ahead, held_behind, std::back_inserter(changed));
-    const TreeSides::Face face = sides.face(held_ahead, held_behind, changed);
-    if (face.is_inside_front == face.is_inside_back) return {};
-    return {(face.is_inside_back ? 1 : -1) * facing(over.front(), axis), face.shown};
   }
 
   BoundaryMesh mesh() const {
@@ -129,8 +95,8 @@ class BoundaryMaker {
     };
     const std::vector<Piece>& pieces = pieces_.all();
     for (uint32_t i = 0; i < pieces.size(); ++i) {
-      const Kept& kept = kept_[pieces_.patches()[i]];
-      if (kept.sign == 0 || is_divided(i)) continue;
+      const KeptFace& kept = kept_[pieces_.patches()[i]];
+      if (kept.sign == 0 || pieces_.is_left_out(i)) continue;
       const Piece& piece = pieces[i];
       // A facet turns as itself, a triangle of a sheet to the left in the drawing.
       const int turns =
@@ -144,10 +110,9 @@ class BoundaryMaker {
   }
 
   const Facets& facets_;
+  const CellTree& cells_;
   const Pieces& pieces_;
-  const CsgTree& tree_;
-  size_t operand_count_;
-  std::vector<Kept> kept_;  // by a patch's first piece
+  std::vector<KeptFace> kept_;  // by a patch's first piece
 };
 
 }  // namespace
@@ -156,10 +121,10 @@ BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree&
   const Facets facets = facets_on_grid(operands);
   std::vector<bool> may_cross_itself;
   for (const TriangleSet& operand : operands) may_cross_itself.push_back(!operand.is_simple);
-  const FacetPairs pairs = facet_pairs(facets, may_cross_itself);
-  const Sheets sheets = sheets_of(facets, pairs);
-  const Pieces pieces(facets, pairs, sheets);
-  return BoundaryMaker(facets, pieces, tree, operands.size()).run();
+  const CellTree cells(facets, tree, may_cross_itself);
+  const Sheets sheets = sheets_of(facets, cells.pairs());
+  const Pieces pieces(facets, cells, sheets);
+  return BoundaryMaker(facets, cells, pieces).run();
 }
 
 size_t open_edges(const TriangleSet& surface) {

@@ -19,11 +19,11 @@ struct SideOfPiece {
 
 }  // namespace
 
-Pieces::Pieces(const Facets& facets, const FacetPairs& pairs, const Sheets& sheets)
+Pieces::Pieces(const Facets& facets, const CellTree& cells, const Sheets& sheets)
     : facets_(facets), sheets_(sheets), corner_count_(facets.points.size()) {
   number_points();
   add_pieces();
-  find_patches(pairs);
+  find_patches(cells);
 }
 
 /// Points with a name in common are one, and corners are named by their numbers.
@@ -95,29 +95,25 @@ void Pieces::add_pieces() {
   }
 }
 
-void Pieces::find_patches(const FacetPairs& pairs) {
+void Pieces::find_patches(const CellTree& cells) {
   DisjointSets patches(pieces_.size());
   // Facets that are alone in a cell have the same solids around them. Others are compared with
   // their neighbours.
-  std::vector<bool> is_alone(facets_.facets.size(), false);
-  for (const std::vector<uint32_t>& cell : pairs.alone) {
+  is_alone_.assign(facets_.facets.size(), false);
+  for (const CellTree::Alone& cell : cells.alone()) {
     uint32_t first = kNoPlace;
-    for (const uint32_t facet : cell) {
+    for (const uint32_t facet : cell.facets) {
+      is_alone_[facet] = true;
       if (sheets_.is_divided[facet]) continue;
-      is_alone[facet] = true;
       if (first == kNoPlace) first = facet;
       patches.join(first, facet);
     }
   }
-  std::vector<bool> is_paired(facets_.facets.size(), false);
-  for (const auto& [a, b] : pairs.pairs) {
-    is_paired[a] = true;
-    is_paired[b] = true;
-  }
+  is_other_.assign(facets_.facets.size(), false);
+  for (const uint32_t facet : cells.others()) is_other_[facet] = true;
   std::vector<SideOfPiece> sides;
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
-    const bool is_facet = i < facets_.facets.size();
-    if (is_facet && (sheets_.is_divided[i] || (is_alone[i] && !is_paired[i]))) continue;
+    if (is_left_out(i) || (i < facets_.facets.size() && !is_other_[i])) continue;
     const auto& points = pieces_[i].points;
     for (size_t j = 0; j < 3; ++j) {
       const auto [a, b] = std::minmax(points[j], points[(j + 1) % 3]);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "arrangement/facet_pairs.hpp"
+#include "arrangement/cell_tree.hpp"
 #include "arrangement/facets.hpp"
 #include "arrangement/sheets.hpp"
 
@@ -21,12 +21,14 @@ struct Piece {
 class Pieces {
  public:
   /// Keeps references to all arguments.
-  Pieces(const Facets& facets, const FacetPairs& pairs, const Sheets& sheets);
+  Pieces(const Facets& facets, const CellTree& cells, const Sheets& sheets);
 
-  /// Facets first, then the triangles of sheets. Facets that are part of a sheet are no pieces.
+  /// Facets first, then the triangles of sheets.
   const std::vector<Piece>& all() const { return pieces_; }
-  bool is_divided(uint32_t piece) const {
-    return piece < facets_.facets.size() && sheets_.is_divided[piece];
+  /// Facets that are part of a sheet, or matter nowhere, are left out.
+  bool is_left_out(uint32_t piece) const {
+    return piece < facets_.facets.size() &&
+           (sheets_.is_divided[piece] || (!is_alone_[piece] && !is_other_[piece]));
   }
   /// Returns the facets that lie there.
   std::span<const uint32_t> facets(const Piece& piece) const {
@@ -46,7 +48,7 @@ class Pieces {
  private:
   void number_points();
   void add_pieces();
-  void find_patches(const FacetPairs& pairs);
+  void find_patches(const CellTree& cells);
 
   const Facets& facets_;
   const Sheets& sheets_;
@@ -55,6 +57,8 @@ class Pieces {
   std::vector<std::vector<uint32_t>> numbers_;  // by sheet and its point
   std::vector<Piece> pieces_;                   // facets first
   std::vector<uint32_t> patches_;
+  std::vector<bool> is_alone_;  // by facet: in some cell
+  std::vector<bool> is_other_;  // by facet: in some other cell where it matters
 };
 
 }  // namespace csgcore

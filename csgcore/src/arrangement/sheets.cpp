@@ -35,8 +35,8 @@ Trace touch(uint32_t facet, uint32_t corner) {
 
 class SheetMaker {
  public:
-  SheetMaker(const Facets& facets, const FacetPairs& pairs)
-      : facets_(facets), pairs_(pairs.pairs), planes_(facets.facets.size()) {}
+  SheetMaker(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs)
+      : facets_(facets), pairs_(pairs), planes_(facets.facets.size()) {}
 
   Sheets run() {
     find_traces();
@@ -322,7 +322,7 @@ class SheetMaker {
 
 }  // namespace
 
-Sheets sheets_of(const Facets& facets, const FacetPairs& pairs) {
+Sheets sheets_of(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs) {
   return SheetMaker(facets, pairs).run();
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "arrangement/facet_pairs.hpp"
 #include "arrangement/facets.hpp"
 #include "arrangement/planar_subdivision.hpp"
 
@@ -29,6 +28,7 @@ struct Sheets {
   std::vector<bool> is_divided;
 };
 
-Sheets sheets_of(const Facets& facets, const FacetPairs& pairs);
+/// Divides facets by those with which they are paired.
+Sheets sheets_of(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs);
 
 }  // namespace csgcore
