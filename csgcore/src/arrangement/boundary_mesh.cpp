@@ -7,6 +7,8 @@
 
 #include "arrangement/cell_tree.hpp"
 #include "arrangement/facets.hpp"
+#include "arrangement/manifold_edges.hpp"
+#include "arrangement/merged_faces.hpp"
 #include "arrangement/pieces.hpp"
 #include "arrangement/sheets.hpp"
 #include "csgcore/stop_scope.hpp"
@@ -83,16 +85,8 @@ class BoundaryMaker {
     return turn(a, b, c, axis);
   }
 
-  BoundaryMesh mesh() const {
-    BoundaryMesh result;
-    std::vector<uint32_t> number_of(pieces_.point_count(), kNoPlace);
-    const auto number = [&](uint32_t point) {
-      if (number_of[point] == kNoPlace) {
-        number_of[point] = static_cast<uint32_t>(result.vertices.size());
-        result.vertices.push_back(facets_.to_world(pieces_.point(point).position));
-      }
-      return number_of[point];
-    };
+  std::vector<KeptPiece> kept_pieces() const {
+    std::vector<KeptPiece> result;
     const std::vector<Piece>& pieces = pieces_.all();
     for (uint32_t i = 0; i < pieces.size(); ++i) {
       const KeptFace& kept = kept_[pieces_.patches()[i]];
@@ -103,9 +97,28 @@ class BoundaryMaker {
           piece.sheet == kNoPlace ? 1 : facing(pieces_.facets(piece).front(), pieces_.axis(piece));
       auto [a, b, c] = piece.points;
       if (turns * kept.sign < 0) std::swap(b, c);
-      result.triangles.push_back({number(a), number(b), number(c)});
-      result.operands.push_back(kept.operand);
+      result.push_back({i, {{a, b, c}, kept.operand}});
     }
+    return result;
+  }
+
+  BoundaryMesh mesh() const {
+    BoundaryMesh result;
+    std::vector<uint32_t> number_of(pieces_.point_count(), kNoPlace);
+    std::vector<bool> may_touch;  // by vertex: it is one of a sheet
+    const auto number = [&](uint32_t point) {
+      if (number_of[point] == kNoPlace) {
+        number_of[point] = static_cast<uint32_t>(result.vertices.size());
+        result.vertices.push_back(facets_.to_world(pieces_.point(point).position));
+        may_touch.push_back(pieces_.is_in_sheet(point));
+      }
+      return number_of[point];
+    };
+    for (const auto& [points, operand] : merged_faces(pieces_, kept_pieces())) {
+      result.triangles.push_back({number(points[0]), number(points[1]), number(points[2])});
+      result.operands.push_back(operand);
+    }
+    part_touching_faces(result, may_touch);
     return result;
   }
 

@@ -79,6 +79,12 @@ void Pieces::number_points() {
     }
   }
   named_ = std::move(points);
+  is_in_sheet_.assign(point_count(), false);
+  for (const std::vector<uint32_t>& numbers : numbers_) {
+    for (const uint32_t number : numbers) {
+      if (number != kNoPlace) is_in_sheet_[number] = true;
+    }
+  }
 }
 
 void Pieces::add_pieces() {
@@ -148,6 +154,12 @@ void Pieces::find_patches(const CellTree& cells) {
 ArrangedPoint Pieces::point(uint32_t number) const {
   if (number < corner_count_) return grid_point(corner_name(number), facets_.points[number]);
   return *named_[number - corner_count_];
+}
+
+bool Pieces::are_in_one_plane(const Piece& a, const Piece& b) const {
+  const GridPlane plane = facets_.plane(facets(a).front());
+  return std::ranges::all_of(facets_.corners(facets(b).front()),
+                             [&](const GridPoint& corner) { return side(plane, corner) == 0; });
 }
 
 int Pieces::axis(const Piece& piece) const {

@@ -40,8 +40,11 @@ class Pieces {
   const std::vector<uint32_t>& patches() const { return patches_; }
   /// Returns a point: a corner of facets, or one of a sheet.
   ArrangedPoint point(uint32_t number) const;
+  bool is_in_sheet(uint32_t point) const { return is_in_sheet_[point]; }
   size_t point_count() const { return corner_count_ + named_.size(); }
   size_t corner_count() const { return corner_count_; }
+  /// Returns whether the pieces lie in one plane, on whichever side of it they face.
+  bool are_in_one_plane(const Piece& a, const Piece& b) const;
   /// The axis along which the piece's plane is drawn.
   int axis(const Piece& piece) const;
 
@@ -55,6 +58,7 @@ class Pieces {
   size_t corner_count_;
   std::vector<const ArrangedPoint*> named_;     // points that are no corners
   std::vector<std::vector<uint32_t>> numbers_;  // by sheet and its point
+  std::vector<bool> is_in_sheet_;               // by point
   std::vector<Piece> pieces_;                   // facets first
   std::vector<uint32_t> patches_;
   std::vector<bool> is_alone_;  // by facet: in some cell

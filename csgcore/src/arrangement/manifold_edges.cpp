@@ -1,0 +1,141 @@
+#include "arrangement/manifold_edges.hpp"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "arrangement/disjoint_sets.hpp"
+#include "arrangement/facets.hpp"
+
+namespace csgcore {
+namespace {
+
+struct HalfEdge {
+  uint32_t low;  // its ends
+  uint32_t high;
+  uint32_t triangle;
+  uint32_t corner;  // of the triangle, where it starts
+  auto operator<=>(const HalfEdge&) const = default;
+};
+
+class Parting {
+ public:
+  Parting(BoundaryMesh& mesh, const std::vector<bool>& may_touch)
+      : mesh_(mesh), may_touch_(may_touch) {}
+
+  void run() {
+    for (uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const auto& triangle = mesh_.triangles[i];
+      if (std::ranges::none_of(triangle, [&](uint32_t vertex) { return may_touch_[vertex]; })) {
+        continue;
+      }
+      place_of_.push_back(i);
+    }
+    std::vector<HalfEdge> edges;
+    for (uint32_t i = 0; i < place_of_.size(); ++i) {
+      for (uint32_t j = 0; j < 3; ++j) {
+        const uint32_t from = vertex(i, j);
+        const uint32_t to = vertex(i, j + 1);
+        if (!may_touch_[from] && !may_touch_[to]) continue;
+        edges.push_back({std::min(from, to), std::max(from, to), i, j});
+      }
+    }
+    tbb::parallel_sort(edges.begin(), edges.end());
+    DisjointSets fans(3 * place_of_.size());  // of corners
+    for (size_t begin = 0; begin < edges.size();) {
+      size_t end = begin + 1;
+      while (end < edges.size() && edges[end].low == edges[begin].low &&
+             edges[end].high == edges[begin].high) {
+        ++end;
+      }
+      if (end - begin == 2) {
+        join(fans, edges[begin], edges[begin + 1]);
+      } else {
+        join_around({edges.begin() + static_cast<std::ptrdiff_t>(begin),
+                     edges.begin() + static_cast<std::ptrdiff_t>(end)},
+                    fans);
+      }
+      begin = end;
+    }
+    copy_vertices(fans);
+  }
+
+ private:
+  uint32_t vertex(uint32_t place, uint32_t corner) const {
+    return mesh_.triangles[place_of_[place]][corner % 3];
+  }
+  static uint32_t corner_of(const HalfEdge& edge, uint32_t beyond) {
+    return 3 * edge.triangle + (edge.corner + beyond) % 3;
+  }
+  /// The edges run in opposite directions.
+  static void join(DisjointSets& fans, const HalfEdge& a, const HalfEdge& b) {
+    fans.join(corner_of(a, 0), corner_of(b, 1));
+    fans.join(corner_of(a, 1), corner_of(b, 0));
+  }
+
+  /// Joins triangles around one edge that bound the same part of the solid. Around the edge from
+  /// low to high, counterclockwise, the solid begins at a triangle that passes it from high to low,
+  /// and ends at one that passes it from low to high.
+  void join_around(std::span<const HalfEdge> edges, DisjointSets& fans) const {
+    const Vec3 low = mesh_.vertices[edges.front().low];
+    const Vec3 along = glm::normalize(mesh_.vertices[edges.front().high] - low);
+    const auto across = [&](const HalfEdge& edge) {
+      const Vec3 to_apex = mesh_.vertices[vertex(edge.triangle, edge.corner + 2)] - low;
+      return to_apex - glm::dot(to_apex, along) * along;
+    };
+    const Vec3 zero = glm::normalize(across(edges.front()));
+    const Vec3 quarter = glm::cross(along, zero);
+    const auto is_rising = [&](const HalfEdge& edge) {
+      return vertex(edge.triangle, edge.corner) == edge.low;
+    };
+    struct Turned {
+      double angle;
+      HalfEdge edge;
+    };
+    std::vector<Turned> turned;
+    for (const HalfEdge& edge : edges) {
+      const Vec3 direction = across(edge);
+      turned.push_back({std::atan2(glm::dot(direction, quarter), glm::dot(direction, zero)), edge});
+    }
+    std::ranges::stable_sort(turned, {}, &Turned::angle);
+    // Parts of the solid do not overlap: each ends where the next triangle rises.
+    for (size_t i = 0; i < turned.size(); ++i) {
+      const HalfEdge& begin = turned[i].edge;
+      const HalfEdge& end = turned[(i + 1) % turned.size()].edge;
+      if (!is_rising(begin) && is_rising(end)) join(fans, begin, end);
+    }
+  }
+
+  void copy_vertices(DisjointSets& fans) {
+    std::vector<uint32_t> fan_of(mesh_.vertices.size(), kNoPlace);  // the one that keeps the vertex
+    std::vector<uint32_t> copy_of(3 * place_of_.size(), kNoPlace);  // by fan
+    for (uint32_t i = 0; i < place_of_.size(); ++i) {
+      for (uint32_t j = 0; j < 3; ++j) {
+        uint32_t& corner = mesh_.triangles[place_of_[i]][j];
+        if (!may_touch_[corner]) continue;
+        const uint32_t fan = fans.find(3 * i + j);
+        if (fan_of[corner] == kNoPlace) fan_of[corner] = fan;
+        if (fan_of[corner] == fan) continue;
+        if (copy_of[fan] == kNoPlace) {
+          copy_of[fan] = static_cast<uint32_t>(mesh_.vertices.size());
+          mesh_.vertices.push_back(Vec3(mesh_.vertices[corner]));
+        }
+        corner = copy_of[fan];
+      }
+    }
+  }
+
+  BoundaryMesh& mesh_;
+  const std::vector<bool>& may_touch_;
+  std::vector<uint32_t> place_of_;  // triangles of the mesh that have such a vertex
+};
+
+}  // namespace
+
+void part_touching_faces(BoundaryMesh& mesh, const std::vector<bool>& may_touch) {
+  Parting(mesh, may_touch).run();
+}
+
+}  // namespace csgcore

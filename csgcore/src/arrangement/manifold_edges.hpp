@@ -1,0 +1,16 @@
+// Parts the faces of a solid where they only touch each other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "csgcore/boundary_mesh.hpp"
+
+namespace csgcore {
+
+/// Gives vertices at which several fans of triangles meet a copy for each of them, and edges with
+/// four triangles and more one for each two that bound the same part of the solid. Only edges and
+/// vertices for which `may_touch` is set, by vertex, are looked at.
+void part_touching_faces(BoundaryMesh& mesh, const std::vector<bool>& may_touch);
+
+}  // namespace csgcore

@@ -1,0 +1,260 @@
+#include "arrangement/merged_faces.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "arrangement/disjoint_sets.hpp"
+#include "arrangement/planar_subdivision.hpp"
+#include "csgcore/stop_scope.hpp"
+
+namespace csgcore {
+namespace {
+
+/// An edge of a kept piece, from point `from` to point `to`.
+struct FaceEdge {
+  uint32_t from;
+  uint32_t to;
+  uint32_t piece;  // a place among the kept ones
+
+  std::pair<uint32_t, uint32_t> ends() const { return std::minmax(from, to); }
+};
+
+/// What meets in a point: the edges between faces.
+struct FaceCorner {
+  std::array<uint32_t, 2> neighbors{kNoPlace, kNoPlace};
+  uint32_t count = 0;
+};
+
+class FaceMerger {
+ public:
+  FaceMerger(const Pieces& pieces, const std::vector<KeptPiece>& kept)
+      : pieces_(pieces), kept_(kept), faces_(kept.size()) {}
+
+  std::vector<FaceTriangle> run() {
+    std::vector<FaceTriangle> result;
+    for (uint32_t i = 0; i < kept_.size(); ++i) {
+      if (is_in_sheet(i)) {
+        in_sheets_.push_back(i);
+      } else {
+        result.push_back(kept_[i].triangle);
+        for (const uint32_t point : kept_[i].triangle.points) corners_of_facets_.push_back(point);
+      }
+    }
+    if (in_sheets_.empty()) return result;
+    tbb::parallel_sort(corners_of_facets_.begin(), corners_of_facets_.end());
+    find_edges();
+    find_corners();
+    // The pieces and the edges of each face.
+    std::unordered_map<uint32_t, uint32_t> number_of;
+    std::vector<std::vector<uint32_t>> pieces;
+    std::vector<std::vector<FaceEdge>> edges;
+    const auto number = [&](uint32_t piece) {
+      const auto [place, is_new] =
+          number_of.emplace(faces_.find(piece), static_cast<uint32_t>(pieces.size()));
+      if (is_new) {
+        pieces.emplace_back();
+        edges.emplace_back();
+      }
+      return place->second;
+    };
+    for (const uint32_t piece : in_sheets_) pieces[number(piece)].push_back(piece);
+    for (const FaceEdge& edge : edges_) edges[number(edge.piece)].push_back(edge);
+    std::vector<std::vector<FaceTriangle>> triangles(pieces.size());
+    const std::stop_token* const stop = stop_of_work;
+    tbb::parallel_for(size_t{0}, pieces.size(), [&](size_t i) {
+      const StopScope scope(stop);
+      stop_point();
+      triangles[i] = face(pieces[i], edges[i]);
+    });
+    for (const auto& of_face : triangles) {
+      result.insert(result.end(), of_face.begin(), of_face.end());
+    }
+    return result;
+  }
+
+ private:
+  const Piece& piece(uint32_t i) const { return pieces_.all()[kept_[i].piece]; }
+  bool is_in_sheet(uint32_t i) const { return piece(i).sheet != kNoPlace; }
+
+  bool are_one_face(uint32_t a, uint32_t b) const {
+    if (kept_[a].triangle.operand != kept_[b].triangle.operand) return false;
+    return piece(a).sheet == piece(b).sheet || pieces_.are_in_one_plane(piece(a), piece(b));
+  }
+
+  /// Joins pieces to faces, and keeps the edges between faces.
+  void find_edges() {
+    std::vector<FaceEdge> all;
+    for (const uint32_t i : in_sheets_) {
+      const auto& points = kept_[i].triangle.points;
+      for (size_t j = 0; j < 3; ++j) all.push_back({points[j], points[(j + 1) % 3], i});
+    }
+    tbb::parallel_sort(all.begin(), all.end(), [](const FaceEdge& a, const FaceEdge& b) {
+      return std::pair(a.ends(), a.piece) < std::pair(b.ends(), b.piece);
+    });
+    for (size_t begin = 0; begin < all.size();) {
+      size_t end = begin + 1;
+      while (end < all.size() && all[end].ends() == all[begin].ends()) ++end;
+      const bool is_inner = end - begin == 2 && all[begin].from == all[begin + 1].to &&
+                            are_one_face(all[begin].piece, all[begin + 1].piece);
+      if (is_inner) {
+        faces_.join(all[begin].piece, all[begin + 1].piece);
+      } else {
+        edges_.insert(edges_.end(), all.begin() + static_cast<std::ptrdiff_t>(begin),
+                      all.begin() + static_cast<std::ptrdiff_t>(end));
+      }
+      begin = end;
+    }
+  }
+
+  void find_corners() {
+    for (size_t i = 0; i < edges_.size(); ++i) {
+      if (i > 0 && edges_[i].ends() == edges_[i - 1].ends()) continue;
+      const auto [a, b] = edges_[i].ends();
+      for (const auto& [point, neighbor] : {std::pair(a, b), std::pair(b, a)}) {
+        FaceCorner& corner = corners_[point];
+        if (corner.count < 2) corner.neighbors[corner.count] = neighbor;
+        ++corner.count;
+      }
+    }
+    for (auto& [point, corner] : corners_) {
+      if (corner.count != 2) continue;
+      if (std::ranges::binary_search(corners_of_facets_, point)) corner.count = 3;
+    }
+    // Points are left out where two edges run straight on.
+    for (const FaceEdge& edge : edges_) {
+      FaceCorner& corner = corners_[edge.from];
+      if (corner.count != 2) continue;
+      const int axis = pieces_.axis(piece(edge.piece));
+      const bool is_straight = turn(pieces_.point(corner.neighbors[0]), pieces_.point(edge.from),
+                                    pieces_.point(corner.neighbors[1]), axis) == 0;
+      corner.count = is_straight ? 0 : 3;
+    }
+  }
+
+  bool is_left_out(uint32_t point) const { return corners_.at(point).count == 0; }
+
+  /// Returns where the edge ends if points that are left out are passed.
+  uint32_t end_of(const FaceEdge& edge) const {
+    uint32_t from = edge.from;
+    uint32_t to = edge.to;
+    while (is_left_out(to)) {
+      const auto& neighbors = corners_.at(to).neighbors;
+      const uint32_t next = neighbors[0] == from ? neighbors[1] : neighbors[0];
+      from = std::exchange(to, next);
+    }
+    return to;
+  }
+
+  std::vector<FaceTriangle> unmerged(const std::vector<uint32_t>& pieces) const {
+    std::vector<FaceTriangle> result;
+    for (const uint32_t i : pieces) result.push_back(kept_[i].triangle);
+    return result;
+  }
+
+  std::vector<FaceTriangle> face(const std::vector<uint32_t>& pieces,
+                                 const std::vector<FaceEdge>& edges) const {
+    if (pieces.size() == 1 &&
+        std::ranges::none_of(edges, [&](const FaceEdge& edge) { return is_left_out(edge.from); })) {
+      return unmerged(pieces);
+    }
+    const int axis = pieces_.axis(piece(pieces.front()));
+    std::vector<std::pair<uint32_t, uint32_t>> outline;
+    std::unordered_map<uint32_t, ArrangedPoint> points;
+    GridPoint least{};
+    GridPoint most{};
+    for (const FaceEdge& edge : edges) {
+      if (is_left_out(edge.from)) continue;
+      outline.emplace_back(edge.from, end_of(edge));
+      const auto& point = points.emplace(edge.from, pieces_.point(edge.from)).first->second;
+      for (size_t i = 0; i < 3; ++i) {
+        const double x = point.position[static_cast<int>(i)];
+        const auto low = static_cast<int64_t>(std::floor(x)) - 1;
+        const auto high = static_cast<int64_t>(std::ceil(x)) + 1;
+        least[i] = points.size() == 1 ? low : std::min(least[i], low);
+        most[i] = points.size() == 1 ? high : std::max(most[i], high);
+      }
+    }
+    PlanarSubdivision drawing(axis, [](uint32_t, uint32_t) { return ArrangedPoint(); });
+    const auto u = static_cast<size_t>(u_axis(axis));
+    const auto v = static_cast<size_t>(v_axis(axis));
+    GridPoint right = least;
+    right[u] = most[u];
+    GridPoint top = least;
+    top[v] = most[v];
+    const PointName none = corner_name(kNoPlace);
+    drawing.start(grid_point(none, least), grid_point(none, right), grid_point(none, most),
+                  grid_point(none, top));
+    std::vector<uint32_t> names(4, kNoPlace);  // by point of the drawing
+    std::unordered_map<uint32_t, uint32_t> drawn;
+    for (const auto& [from, to] : outline) {
+      if (drawn.contains(from)) continue;
+      drawn[from] = drawing.insert(points.at(from));
+      names.push_back(from);
+    }
+    for (uint32_t i = 0; i < outline.size(); ++i) {
+      drawing.draw(drawn.at(outline[i].first), drawn.at(outline[i].second), i);
+    }
+    const bool is_left = turn(pieces_.point(kept_[pieces.front()].triangle.points[0]),
+                              pieces_.point(kept_[pieces.front()].triangle.points[1]),
+                              pieces_.point(kept_[pieces.front()].triangle.points[2]), axis) > 0;
+    std::vector<FaceTriangle> result;
+    for (const uint32_t i : inside(drawing)) {
+      auto [a, b, c] = drawing.triangles()[i].points;
+      if (!is_left) std::swap(b, c);
+      result.push_back({{names[a], names[b], names[c]}, kept_[pieces.front()].triangle.operand});
+    }
+    return result;
+  }
+
+  /// Returns the triangles within the outline, which each of its edges enters or leaves.
+  static std::vector<uint32_t> inside(const PlanarSubdivision& drawing) {
+    const auto& triangles = drawing.triangles();
+    std::vector<int> is_inside(triangles.size(), -1);
+    std::vector<uint32_t> open;
+    for (uint32_t i = 0; open.empty(); ++i) {
+      if (std::ranges::find(triangles[i].beyond, kNoPlace) == triangles[i].beyond.end()) continue;
+      is_inside[i] = 0;
+      open.push_back(i);
+    }
+    std::vector<uint32_t> result;
+    while (!open.empty()) {
+      const uint32_t at = open.back();
+      open.pop_back();
+      if (is_inside[at] == 1) result.push_back(at);
+      for (size_t edge = 0; edge < 3; ++edge) {
+        const uint32_t next = triangles[at].beyond[edge];
+        if (next == kNoPlace || is_inside[next] >= 0) continue;
+        int lines = 0;
+        for (uint32_t link = triangles[at].lines[edge]; link != kNoPlace;
+             link = drawing.links()[link].next) {
+          ++lines;
+        }
+        is_inside[next] = (is_inside[at] + lines) % 2;
+        open.push_back(next);
+      }
+    }
+    std::ranges::sort(result);
+    return result;
+  }
+
+  const Pieces& pieces_;
+  const std::vector<KeptPiece>& kept_;
+  DisjointSets faces_;                       // of kept pieces
+  std::vector<uint32_t> in_sheets_;          // kept pieces
+  std::vector<uint32_t> corners_of_facets_;  // points of other pieces
+  std::vector<FaceEdge> edges_;              // between faces, in the order of their ends
+  std::unordered_map<uint32_t, FaceCorner> corners_;
+};
+
+}  // namespace
+
+std::vector<FaceTriangle> merged_faces(const Pieces& pieces, const std::vector<KeptPiece>& kept) {
+  return FaceMerger(pieces, kept).run();
+}
+
+}  // namespace csgcore
