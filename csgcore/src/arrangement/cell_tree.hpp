@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "arrangement/exact_center.hpp"
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 #include "arrangement/tree_values.hpp"
 
 namespace csgcore {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 
 namespace csgcore {
 

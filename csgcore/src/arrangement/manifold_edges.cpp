@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "arrangement/disjoint_sets.hpp"
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 
 namespace csgcore {
 namespace {

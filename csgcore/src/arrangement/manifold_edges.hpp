@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "csgcore/boundary_mesh.hpp"
+#include "csgcore/triangle_set.hpp"
 
 namespace csgcore {
 

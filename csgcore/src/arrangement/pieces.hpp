@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arrangement/cell_tree.hpp"
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 #include "arrangement/sheets.hpp"
 
 namespace csgcore {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arrangement/exact_point.hpp"
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 
 namespace csgcore {
 

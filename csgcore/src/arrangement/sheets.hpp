@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 #include "arrangement/planar_subdivision.hpp"
 
 namespace csgcore {

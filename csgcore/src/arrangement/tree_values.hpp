@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 #include "csgcore/csg_tree.hpp"
 
 namespace csgcore {

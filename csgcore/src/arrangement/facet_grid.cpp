@@ -1,4 +1,4 @@
-#include "arrangement/facets.hpp"
+#include "arrangement/facet_grid.hpp"
 
 #include <algorithm>
 #include <bit>

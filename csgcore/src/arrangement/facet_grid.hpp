@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arrangement/grid.hpp"
-#include "csgcore/boundary_mesh.hpp"
+#include "csgcore/triangle_set.hpp"
 
 namespace csgcore {
 
