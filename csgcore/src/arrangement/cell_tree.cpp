@@ -364,7 +364,8 @@ KeptFace CellTree::kept(const std::array<const ArrangedPoint*, 3>& triangle, int
     WayPoint to = from;
     to.move(along);
     for (const uint32_t facet : cell->facets) {
-      if (std::ranges::find(over, facet) != over.end()) continue;
+      // The last way ends on them.
+      if (along == axis && std::ranges::find(over, facet) != over.end()) continue;
       const auto turn_of_column = [&](const GridPoint& a, const GridPoint& b) {
         return from.turn(a, b, along);
       };

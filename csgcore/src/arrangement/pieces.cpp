@@ -90,13 +90,16 @@ void Pieces::number_points() {
 void Pieces::add_pieces() {
   pieces_.reserve(facets_.facets.size());
   for (uint32_t i = 0; i < facets_.facets.size(); ++i) {
-    pieces_.push_back({facets_.facets[i].corners, kNoPlace, i});
+    pieces_.push_back({facets_.facets[i].corners, kNoPlace, i, 0});
   }
   for (uint32_t i = 0; i < sheets_.sheets.size(); ++i) {
     const Sheet& sheet = sheets_.sheets[i];
     for (size_t j = 0; j < sheet.triangles.size(); ++j) {
       const auto& [a, b, c] = sheet.triangles[j];
-      pieces_.push_back({{numbers_[i][a], numbers_[i][b], numbers_[i][c]}, i, sheet.cover_of[j]});
+      pieces_.push_back({{numbers_[i][a], numbers_[i][b], numbers_[i][c]},
+                         i,
+                         sheet.cover_of[j],
+                         sheet.met_edges[j]});
     }
   }
 }
@@ -122,6 +125,8 @@ void Pieces::find_patches(const CellTree& cells) {
     if (is_left_out(i) || (i < facets_.facets.size() && !is_other_[i])) continue;
     const auto& points = pieces_[i].points;
     for (size_t j = 0; j < 3; ++j) {
+      // A line that was drawn may have more points in the other surface's sheet.
+      if ((pieces_[i].met_edges >> j & 1) != 0) continue;
       const auto [a, b] = std::minmax(points[j], points[(j + 1) % 3]);
       sides.push_back({a, b, i});
     }

@@ -16,6 +16,7 @@ struct Piece {
   std::array<uint32_t, 3> points;  // places in Pieces::points
   uint32_t sheet;                  // kNoPlace: it is a facet by itself
   uint32_t cover;                  // of the sheet; or the facet
+  uint8_t met_edges;               // as in a Sheet
 };
 
 class Pieces {

@@ -249,10 +249,21 @@ class SheetMaker {
   }
 
   static Sheet finished(const PlanarSubdivision& drawing, const std::vector<uint32_t>& members) {
-    Sheet result{drawing.axis(), drawing.points(), drawing.aliases(), {}, {}, {}};
+    Sheet result{drawing.axis(), drawing.points(), drawing.aliases(), {}, {}, {}, {}};
+    const auto add = [&](const PlanarSubdivision::Triangle& triangle, uint32_t cover) {
+      result.triangles.push_back(triangle.points);
+      result.cover_of.push_back(cover);
+      uint8_t met = 0;
+      for (size_t edge = 0; edge < 3; ++edge) {
+        for (uint32_t link = triangle.lines[edge]; link != kNoPlace;
+             link = drawing.links()[link].next) {
+          if (drawing.links()[link].line >= 3 * members.size()) met |= uint8_t(1 << edge);
+        }
+      }
+      result.met_edges.push_back(met);
+    };
     if (members.size() == 1) {
-      for (const auto& triangle : drawing.triangles()) result.triangles.push_back(triangle.points);
-      result.cover_of.assign(result.triangles.size(), 0);
+      for (const auto& triangle : drawing.triangles()) add(triangle, 0);
       result.covers.push_back(members);
       return result;
     }
@@ -266,8 +277,7 @@ class SheetMaker {
         number_of[cover] = static_cast<uint32_t>(result.covers.size());
         result.covers.push_back(covers[cover]);
       }
-      result.triangles.push_back(drawing.triangles()[i].points);
-      result.cover_of.push_back(number_of[cover]);
+      add(drawing.triangles()[i], number_of[cover]);
     }
     return result;
   }

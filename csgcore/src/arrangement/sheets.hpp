@@ -18,6 +18,8 @@ struct Sheet {
   /// By triangle: its points, counterclockwise in the drawing, and which of `covers` it is.
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<uint32_t> cover_of;
+  /// By triangle: its edges along which a surface meets the plane, as bits: 1 << edge.
+  std::vector<uint8_t> met_edges;
   /// Facets that lie over one another, in rising order; none is empty.
   std::vector<std::vector<uint32_t>> covers;
 };
