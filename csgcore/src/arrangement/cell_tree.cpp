@@ -62,7 +62,8 @@ struct CellTree::Cell {
   std::unique_ptr<Cell> low;
   std::unique_ptr<Cell> high;
   // A leaf.
-  GridPoint corner{};
+  GridPoint corner{};  // the lowest
+  GridPoint top{};     // the highest corner
   TreeTokens tokens;
   std::vector<Winding> windings;  // of the operands in the tree, which are in rising order
   std::vector<uint32_t> facets;   // of these operands, in rising order
@@ -87,12 +88,12 @@ class CellTree::Builder {
     root->tokens.assign(tree.tokens().begin(), tree.tokens().end());
     root->facets.resize(boxes_.size());
     std::iota(root->facets.begin(), root->facets.end(), 0u);
-    GridPoint lowest{};
     for (const GridPoint& point : facets_.points) {
-      for (size_t i = 0; i < 3; ++i) lowest[i] = std::min(lowest[i], point[i]);
+      for (size_t i = 0; i < 3; ++i) {
+        root->corner[i] = std::min(root->corner[i], point[i] - 1);
+        root->top[i] = std::max(root->top[i], point[i] + 1);
+      }
     }
-    for (int64_t& x : lowest) --x;
-    root->corner = lowest;
     for (const Facet& facet : facets_.facets) {
       auto& windings = root->windings;
       if (windings.empty() || windings.back().operand != facet.operand) {
@@ -146,8 +147,7 @@ class CellTree::Builder {
     restrict(cell);
     if (cell.facets.empty()) return;
     if (cell.alone && !may_cross_itself_[cell.windings.front().operand]) {
-      found_.local().alone.push_back({std::move(cell.facets), *cell.alone});
-      cell.facets.clear();
+      add_alone(cell);
       return;
     }
     constexpr size_t kFew = 24;
@@ -257,12 +257,15 @@ class CellTree::Builder {
     cell.plane = plane;
     cell.low = std::make_unique<Cell>();
     cell.low->corner = cell.corner;
+    cell.low->top = cell.top;
+    cell.low->top[axis] = plane;
     cell.low->facets = std::move(low);
     cell.low->tokens = cell.tokens;
     cell.low->windings = cell.windings;
     cell.high = std::make_unique<Cell>();
     cell.high->corner = cell.corner;
     cell.high->corner[axis] = plane;
+    cell.high->top = cell.top;
     cell.high->facets = std::move(high);
     cell.high->windings = std::move(cell.windings);
     move_corner(cell, *cell.high);
@@ -297,6 +300,24 @@ class CellTree::Builder {
       to.windings[at].number +=
           change(side_moved(plane, from.corner), side_moved(plane, to.corner));
     }
+  }
+
+  /// Facets whose boxes meet the cell need not do so themselves: who has a corner in it does.
+  void add_alone(Cell& cell) {
+    const auto has_corner_in = [&](uint32_t facet) {
+      return std::ranges::any_of(facets_.corners(facet), [&](const GridPoint& point) {
+        for (size_t i = 0; i < 3; ++i) {
+          if (point[i] < cell.corner[i] || point[i] > cell.top[i]) return false;
+        }
+        return true;
+      });
+    };
+    Found& found = found_.local();
+    const auto middle = std::partition(cell.facets.begin(), cell.facets.end(), has_corner_in);
+    found.others.insert(found.others.end(), middle, cell.facets.end());
+    cell.facets.erase(middle, cell.facets.end());
+    if (!cell.facets.empty()) found.alone.push_back({std::move(cell.facets), *cell.alone});
+    cell.facets.clear();
   }
 
   void add_pairs(const std::vector<uint32_t>& facets) {
