@@ -69,6 +69,8 @@ struct ImportOptions {
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
   PictureKind picture = PictureKind::kPreview;
+  /// Keep color() in a final render, too. Its layers stay those of an opaque solid.
+  bool keeps_colors = false;
   /// Find the boxes of compound leaves for the view box (csgcore/solid.hpp); otherwise it
   /// may be too large there, or too small where a leaf's frame is turned.
   bool measures_leaves = true;

@@ -45,8 +45,10 @@ struct ImportedDesign {
   std::vector<std::string> files;
   /// Whether it has text, which fonts change that no node names.
   bool has_text = false;
-  /// The outlines, closed, at z = 0, if this is a final render (PictureKind::kRendered) of a plane
-  /// figure. The scene has a thin plate for it.
+  /// Whether this is a final render (PictureKind::kRendered) of a plane figure. The scene has a thin
+  /// plate for it.
+  bool is_plane_figure = false;
+  /// The outlines of the plane figure, closed, at z = 0. None if its edges cross too often.
   std::vector<std::vector<csgcore::Vec3>> flat_outlines;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;

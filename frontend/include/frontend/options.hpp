@@ -9,6 +9,7 @@
 #include "frontend/design_file_options.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/model_export.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"
@@ -25,6 +26,11 @@ struct Output {
 struct TextOutput {
   std::string path;  // "-": standard output
   TextKind kind;
+};
+
+struct ModelOutput {
+  std::string path;  // "-": standard output
+  ModelFormat format;
 };
 
 /// The action that a command line asks for.
@@ -44,8 +50,10 @@ struct Options {
   Action action = Action::kDraw;
   std::string input;                        // "-": standard input
   std::vector<std::string> further_inputs;  // kOpenWindow: each of them gets a window of its own
-  std::vector<Output> outputs;    // kDraw: these or `texts` are at least one; one of all may be "-"
-  std::vector<TextOutput> texts;  // written before the pictures
+  /// kDraw: these, `texts` and `models` are at least one; one of all may be "-".
+  std::vector<Output> outputs;
+  std::vector<TextOutput> texts;    // written first
+  std::vector<ModelOutput> models;  // written before the pictures
   Evaluator evaluator = kDefaultEvaluator;
   std::string stats_path;  // empty: none; "-": standard output
   std::string editor;      // --editor; empty: the environment tells it
@@ -71,8 +79,8 @@ inline language::CameraChoice camera_choice(const Options& options) {
   return options.camera.camera ? language::CameraChoice::kCommand : language::CameraChoice::kDesign;
 }
 
-/// The most pictures of a run. Each is registered for removal at an interruption, as are the
-/// statistics and the rule for make.
+/// The most pictures, or models, of a run. Each is registered for removal at an interruption, as
+/// are the statistics and the rule for make.
 constexpr std::size_t kMaxPictures = kMaxRemovedFiles - 2;
 
 /// Returns the format of the path's suffix. Throws Error for any other suffix.

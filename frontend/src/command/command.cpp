@@ -9,6 +9,7 @@
 
 #include "base/elapsed.hpp"
 #include "command/check.hpp"
+#include "command/models.hpp"
 #include "command/outputs.hpp"
 #include "csgcore/workers.hpp"
 #include "frontend/design_file.hpp"
@@ -296,8 +297,11 @@ void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind
 /// a pipe.
 ExitCode draw(const Options& options, const Renderer& renderer) {
   std::optional<FileText> text;
-  if (!options.texts.empty() || options.frames > 0) text = text_in_memory(options.input);
+  if (!options.texts.empty() || !options.models.empty() || options.frames > 0) {
+    text = text_in_memory(options.input);
+  }
   if (const ExitCode code = write_texts(options, text); code != ExitCode::kDone) return code;
+  if (!options.models.empty()) write_models(options, text);
   if (!options.outputs.empty()) Run(options, text, renderer).execute();
   return ExitCode::kDone;
 }

@@ -14,6 +14,7 @@ std::vector<std::string> scheme_names() {
 std::vector<std::string> format_names() {
   std::vector<std::string> names = names_of<kFormats>();
   for (const auto& word : kTextKinds) names.emplace_back(word.first);
+  for (const auto& word : kModelFormats) names.emplace_back(word.first);
   return names;
 }
 
@@ -23,13 +24,14 @@ constexpr Completion kViewList{Completion::Kind::kWordList, names_of<kViews>};
 // Where OpenSCAD has a long name of one letter for a short option, so have we.
 constexpr OptionRow kOpenScadOptions[] = {
     {"o,o", Takes::kTexts, "OUT",
-     "picture to write: .png or .exr; or the evaluated design's tree (.csg) or messages (.echo); - "
-     "is standard output, with --export-format; may be given more than once",
+     "what to write: a picture (.png, .exr); the solid (.stl, .off, .obj, .3mf, .amf) or the plane "
+     "figure (.svg, .dxf, .pdf); the evaluated design's tree (.csg) or messages (.echo); - is "
+     "standard output, with --export-format; may be given more than once",
      kAnyFile},
     {"export-format",
      Takes::kText,
      "FORMAT",
-     "png, exr, csg or echo, whatever OUT's suffix is",
+     "the format, whatever OUT's suffix is: that of a suffix, or asciistl or binstl (.stl's)",
      {Completion::Kind::kWord, format_names}},
     {"imgsize", Takes::kText, "W,H", "size of the picture in pixels; default 512,512"},
     {"camera", Takes::kText, "NUMBERS",

@@ -10,6 +10,7 @@
 #include "csgcore/view.hpp"
 #include "frontend/design_file_options.hpp"
 #include "frontend/import_options.hpp"
+#include "frontend/model_export.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"
@@ -24,6 +25,12 @@ constexpr Word<PictureFormat> kFormats[] = {{"png", PictureFormat::kPng},
                                             {"exr", PictureFormat::kExr}};
 /// Formats of texts, beside those of pictures.
 constexpr Word<TextKind> kTextKinds[] = {{"csg", TextKind::kCsg}, {"echo", TextKind::kEcho}};
+/// Formats of solids and plane figures.
+constexpr Word<ModelFormat> kModelFormats[] = {
+    {"stl", ModelFormat::kStl}, {"binstl", ModelFormat::kStl}, {"asciistl", ModelFormat::kAsciiStl},
+    {"off", ModelFormat::kOff}, {"obj", ModelFormat::kObj},    {"3mf", ModelFormat::k3mf},
+    {"amf", ModelFormat::kAmf}, {"svg", ModelFormat::kSvg},    {"dxf", ModelFormat::kDxf},
+    {"pdf", ModelFormat::kPdf}};
 constexpr Word<Evaluator> kEvaluators[] = {{"own", Evaluator::kOwn},
                                            {"openscad", Evaluator::kOpenScad}};
 constexpr Word<csgcore::Projection> kProjections[] = {

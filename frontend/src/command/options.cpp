@@ -136,9 +136,10 @@ std::string suffix_of(const std::string& path) {
 PictureFormat picture_format(const std::string& path) {
   const PictureFormat* format = find_word(kFormats, suffix_of(path));
   if (!format) {
-    throw Error(path, {}, "is no picture",
-                "end it in .png or .exr (or in .csg or .echo, for the evaluated design), or give "
-                "--export-format; whatever else a design is exported to, openscad writes");
+    throw Error(
+        path, {}, "is no picture",
+        "end it in .png or .exr, or in what a design is exported to (.stl, .off, .obj, .3mf, "
+        ".amf, .svg, .dxf, .pdf, .csg, .echo), or give --export-format");
   }
   return *format;
 }
@@ -150,17 +151,32 @@ void add_output(const std::string& path, const std::string& given, Options& opti
   const std::string word = given.empty() ? suffix_of(path) : given;
   if (const TextKind* kind = find_word(kTextKinds, word)) {
     options.texts.push_back({path, *kind});
+  } else if (const ModelFormat* model = find_word(kModelFormats, word)) {
+    options.models.push_back({path, *model});
   } else {
     const PictureFormat* format = find_word(kFormats, word);
     options.outputs.push_back({path, format ? *format : picture_format(path)});
   }
 }
 
+/// Throws Error if so many outputs are more than kMaxPictures over all frames.
+void check_count(const std::string& what, std::size_t outputs, uint32_t frames) {
+  if (outputs * std::max(frames, 1u) <= kMaxPictures) return;
+  const std::string most = std::to_string(kMaxPictures);
+  fail("more than " + most + " " + what + ": " + std::to_string(outputs) + " of -o" +
+           (frames > 0 ? ", for each of " + std::to_string(frames) + " frames" : ""),
+       frames > 0 && outputs <= kMaxPictures
+           ? "give --animate at most " + std::to_string(kMaxPictures / outputs) + ", or fewer -o"
+           : "give -o at most " + most + " times");
+}
+
 void read_outputs(const Arguments& arguments, Options& options) {
   const std::string given = lower_case(arguments.text_or_empty("export-format"));
-  if (!given.empty() && !find_word(kFormats, given) && !find_word(kTextKinds, given)) {
-    bad_value("export-format", arguments.text("export-format"),
-              "scadray writes png, exr, csg and echo; the rest openscad");
+  if (!given.empty() && !find_word(kFormats, given) && !find_word(kTextKinds, given) &&
+      !find_word(kModelFormats, given)) {
+    bad_value(
+        "export-format", arguments.text("export-format"),
+        "give " + listed(kFormats) + "; " + listed(kTextKinds) + "; " + listed(kModelFormats));
   }
   arguments.for_each([&](const std::string& option, const std::string& value) {
     if (option == "o" || option == "s" || option == "x") add_output(value, given, options);
@@ -169,7 +185,8 @@ void read_outputs(const Arguments& arguments, Options& options) {
   if (arguments.has("d")) options.rule_path = arguments.text("d");
   const auto is_stdout = [](const auto& output) { return output.path == "-"; };
   const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(), is_stdout) +
-                         std::count_if(options.texts.begin(), options.texts.end(), is_stdout);
+                         std::count_if(options.texts.begin(), options.texts.end(), is_stdout) +
+                         std::count_if(options.models.begin(), options.models.end(), is_stdout);
   if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") + options.prints_echoes >
       1) {
     fail("more than one output goes to standard output", "give all but one a file");
@@ -179,16 +196,8 @@ void read_outputs(const Arguments& arguments, Options& options) {
   if (options.frames > 0 && to_stdout > 0) {
     fail("--animate does not go to standard output", "give -o a file's name");
   }
-  if (options.outputs.size() * std::max(options.frames, 1u) > kMaxPictures) {
-    const std::string most = std::to_string(kMaxPictures);
-    fail("more than " + most + " pictures: " + std::to_string(options.outputs.size()) + " of -o" +
-             (options.frames > 0 ? ", for each of " + std::to_string(options.frames) + " frames"
-                                 : ""),
-         options.frames > 0 && options.outputs.size() <= kMaxPictures
-             ? "give --animate at most " + std::to_string(kMaxPictures / options.outputs.size()) +
-                   ", or fewer -o"
-             : "give -o at most " + most + " times");
-  }
+  check_count("pictures", options.outputs.size(), options.frames);
+  check_count("models", options.models.size(), options.frames);
 }
 
 /// Throws Error if there are several designs, unless each can have a window of its own.
@@ -333,7 +342,8 @@ Options parse_options(const std::vector<std::string>& words) {
   read_render(arguments, options.render);
   read_outputs(arguments, options);
   read_view(arguments, options);
-  if (options.outputs.empty() && options.texts.empty()) options.action = Action::kOpenWindow;
+  if (options.outputs.empty() && options.texts.empty() && options.models.empty())
+    options.action = Action::kOpenWindow;
   check_inputs(options);
   leave_out_crosshairs(options);
   options.openscad_arguments = openscad_arguments_of(arguments);

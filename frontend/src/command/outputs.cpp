@@ -90,7 +90,8 @@ class TextRun {
       is_read = evaluate(*known, frame);
     }
     if (output_.kind == TextKind::kEcho) outputs_.push_back({output_.path, bytes_of(messages_)});
-    if (is_read && !options_.rule_path.empty() && options_.outputs.empty()) {
+    const bool is_last = options_.models.empty() && options_.outputs.empty();
+    if (is_read && !options_.rule_path.empty() && is_last) {
       outputs_.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
     }
     if (is_read || output_.kind == TextKind::kEcho) write_outputs(outputs_);
@@ -152,6 +153,10 @@ std::string path_of(const Output& output, const Options& options, uint32_t frame
   return frame_path(output.path, options, frame);
 }
 
+std::string path_of(const ModelOutput& output, const Options& options, uint32_t frame) {
+  return frame_path(output.path, options, frame);
+}
+
 std::string path_of(const TextOutput& output, const Options& options, uint32_t frame) {
   return output.kind == TextKind::kEcho ? output.path : frame_path(output.path, options, frame);
 }
@@ -165,6 +170,9 @@ std::vector<NamedPath> output_paths(const Options& options) {
     }
   }
   for (uint32_t frame = 0; frame < frame_count(options); ++frame) {
+    for (const ModelOutput& output : options.models) {
+      paths.push_back({"-o", path_of(output, options, frame)});
+    }
     for (const Output& output : options.outputs) {
       paths.push_back({"-o", path_of(output, options, frame)});
     }

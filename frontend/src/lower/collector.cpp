@@ -224,7 +224,7 @@ void Collector::enter_matrix(uint32_t node) {
 void Collector::enter_color(uint32_t node) {
   NodeReader reader(tree_, tree_.nodes[node], problems);
   const auto color = std::get<NodeColor>(read_node(reader, {options_, fonts}));
-  if (options_.picture == PictureKind::kRendered) return;
+  if (options_.picture == PictureKind::kRendered && !options_.keeps_colors) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
   Context context = contexts_.back();

@@ -21,8 +21,9 @@ class Composer {
       : leaves_(leaves), boxes_(boxes), scene_(scene) {}
 
   /// OpenSCAD's preview and its final render.
-  void compose_preview(Design& design) {
-    if (has_translucent(design.model)) add_products(design.model, Layer::Kind::kModel);
+  void compose_preview(Design& design, PictureKind picture) {
+    const bool has_layers = picture != PictureKind::kRendered && has_translucent(design.model);
+    if (has_layers) add_products(design.model, Layer::Kind::kModel);
     for (const LeafTree& part : design.background) add_products(part, Layer::Kind::kBackground);
     for (const LeafTree& part : design.highlight) add_products(part, Layer::Kind::kHighlight);
     if (leaves_.has_compound()) {
@@ -195,7 +196,7 @@ bool compose(Design design, const Leaves& leaves, std::span<const Box> boxes, Pi
   if (picture == PictureKind::kThrownTogether) {
     composer.compose_thrown_together(design);
   } else {
-    composer.compose_preview(design);
+    composer.compose_preview(design, picture);
   }
   return composer.has_all_layers();
 }

@@ -314,6 +314,9 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   design.warnings = collected.problems.warnings(tree);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
+  design.is_plane_figure =
+      std::any_of(collected.plane_leaves.begin(), collected.plane_leaves.end(),
+                  [](const Collector::PlaneLeaf& leaf) { return !leaf.figures.empty(); });
   design.flat_outlines = flat_outlines(collected);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,

@@ -1,21 +1,16 @@
 // Solids of triangles and the plane z = 0: where they meet it, and the shadow that they cast on it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "csgcore/geometry.hpp"
+#include "csgcore/boundary_mesh.hpp"
 #include "plane/figure.hpp"
 
 namespace frontend {
 
-/// Triangles by the numbers of their vertices.
-struct TriangleSet {
-  std::vector<csgcore::Vec3> vertices;
-  std::vector<std::array<uint32_t, 3>> triangles;
-};
+using csgcore::TriangleSet;
 
 /// Returns figures whose union is the section of the solid with the plane, where its winding number
 /// is not 0. The triangles are closed and run counterclockwise, as seen from outside. A face that

@@ -1,0 +1,72 @@
+// Exports a design: the surface of its solid, or the outlines of its plane figure, as a file that
+// other programs read (frontend/OPTIONS.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "csgcore/boundary_mesh.hpp"
+#include "csgcore/primitive.hpp"
+#include "frontend/design_tree.hpp"
+#include "frontend/error.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/imported_design.hpp"
+
+namespace frontend {
+
+enum class ModelFormat : uint8_t { kStl, kAsciiStl, kOff, kObj, kAmf, k3mf, kSvg, kDxf, kPdf };
+
+/// Returns whether the format holds plane figures; the others hold solids.
+constexpr bool is_plane_format(ModelFormat format) {
+  return format == ModelFormat::kSvg || format == ModelFormat::kDxf || format == ModelFormat::kPdf;
+}
+
+/// A part of a solid that has one colour, or none. The parts of a solid share no volume, and where
+/// two of them meet, both have a surface.
+struct ExportedPart {
+  csgcore::TriangleSet surface;
+  std::optional<csgcore::Color> color;
+};
+
+/// Returns the options by which a design is imported for its export: as OpenSCAD's final render,
+/// with OpenSCAD's facets, and with the colours that 3MF holds.
+ImportOptions options_for_export(ImportOptions options);
+
+class ModelExport {
+ public:
+  /// `design` was imported by options_for_export() from `tree`. Both must outlive this. `threads`
+  /// is the most that work; 0: as many as there are processors.
+  ModelExport(const ImportedDesign& design, const DesignTree& tree, unsigned threads = 0);
+
+  /// Throws Error if the design has nothing that the format holds, in OpenSCAD's words.
+  void check(ModelFormat format) const;
+
+  /// Returns the bytes of the file: the same for the same design, on one processor. A call for a
+  /// solid takes the time of csgcore::boundary_mesh(), once for all formats but 3MF, which has the
+  /// solid by its colours. Throws what check() does; Error if the format cannot hold the solid; and
+  /// Stopped (stop.hpp).
+  std::string encode(ModelFormat format);
+
+  /// What encode() has said about parts that it has left out.
+  const std::vector<Warning>& warnings() const { return warnings_; }
+
+ private:
+  [[noreturn]] void fail_as_too_small() const;
+  void find_operands();
+  const csgcore::TriangleSet& surface();
+  const std::vector<ExportedPart>& parts();
+
+  const ImportedDesign& design_;
+  const DesignTree& tree_;
+  const unsigned threads_;
+  bool has_operands_ = false;
+  std::vector<csgcore::TriangleSet> operands_;  // by primitive; empty if the solid has it not
+  csgcore::CsgTree solid_;                      // over the operands
+  std::optional<csgcore::TriangleSet> surface_;
+  std::optional<std::vector<ExportedPart>> parts_;
+  std::vector<Warning> warnings_;
+};
+
+}  // namespace frontend

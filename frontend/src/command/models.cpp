@@ -1,0 +1,120 @@
+#include "command/models.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command/outputs.hpp"
+#include "frontend/design_file.hpp"
+#include "frontend/design_version.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/model_export.hpp"
+#include "frontend/terminal.hpp"
+
+namespace frontend {
+namespace {
+
+class ModelRun {
+ public:
+  ModelRun(const Options& options, const std::optional<FileText>& text)
+      : options_(options), text_(text), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+
+  void execute() {
+    const std::vector<NamedPath> outputs = named_outputs();
+    for (const NamedPath& output : outputs) check_output(output.path);
+    check_outputs_differ(outputs, design_inputs(options_.input, options_.openscad_arguments));
+    if (options_.outputs.empty()) {  // a picture's run says them, too
+      for (const std::string& warning : options_.warnings) say("warning: " + warning);
+    }
+    for (uint32_t frame = 0; frame < frame_count(options_); ++frame) export_frame(frame);
+    if (!options_.rule_path.empty() && options_.outputs.empty()) {
+      outputs_.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
+    }
+    progress_.clear();
+    std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
+    for (const std::string& file : files_) inputs.push_back({"a file of the design", file});
+    check_outputs_differ(outputs, inputs);
+    write_outputs(outputs_);
+  }
+
+ private:
+  std::vector<NamedPath> named_outputs() const {
+    std::vector<NamedPath> outputs = output_paths(options_);
+    if (!options_.rule_path.empty()) outputs.push_back({"-d", options_.rule_path});
+    return outputs;
+  }
+
+  /// Writes a line to stderr, unless -q is given.
+  void say(const std::string& text) {
+    if (options_.quiet) return;
+    progress_.clear();
+    print_text(stderr, text + "\n");
+  }
+
+  void warn(const std::vector<Warning>& warnings) {
+    for (const Warning& warning : warnings) {
+      if (options_.has_hard_warnings && !warning.is_note) throw Error(warning);
+      say(warning.text);
+    }
+  }
+
+  DesignFile read(uint32_t frame) {
+    DesignFileOptions reading;
+    reading.import = options_for_export(options_.import);
+    reading.openscad_arguments = options_.openscad_arguments;
+    reading.evaluator = options_.evaluator;
+    reading.text = text_;
+    reading.inputs.time = frame_time(options_, frame);
+    reading.wants_files = !options_.rule_path.empty();
+    reading.message = [this](const std::string& line) {
+      if (options_.prints_echoes && is_echo(line)) {
+        print_text(stdout, line + "\n");
+      } else if (!options_.quiet || line.starts_with("ERROR")) {
+        progress_.clear();
+        print_text(stderr, line + "\n");
+      }
+    };
+    reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
+    return read_design(options_.input, reading);
+  }
+
+  void export_frame(uint32_t frame) {
+    DesignFile file = read(frame);
+    progress_.update("importing", -1);
+    const ImportedDesign design = import_design(file);
+    warn(design.warnings);
+    add_imported_files(design, file.files);
+    for (const std::vector<std::string>& names : {file.files, design.files}) {
+      for (const std::string& name : names) {
+        if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+      }
+    }
+    ModelExport model(design, file.tree, options_.render.threads);
+    for (const ModelOutput& output : options_.models) model.check(output.format);
+    std::size_t told = 0;
+    for (const ModelOutput& output : options_.models) {
+      progress_.update("making the surface", -1);
+      outputs_.push_back({path_of(output, options_, frame), bytes_of(model.encode(output.format))});
+      if (told == 0) warn(model.warnings());
+      told = model.warnings().size();
+    }
+  }
+
+  const Options& options_;
+  const std::optional<FileText>& text_;
+  ProgressLine progress_;
+  std::vector<std::string> files_;  // that the design was read from, for all frames
+  std::vector<PendingOutput> outputs_;
+};
+
+}  // namespace
+
+void write_models(const Options& options, const std::optional<FileText>& text) {
+  ModelRun(options, text).execute();
+}
+
+}  // namespace frontend

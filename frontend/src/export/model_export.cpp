@@ -1,0 +1,206 @@
+#include "frontend/model_export.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "arguments/node_problems.hpp"
+#include "csgcore/stop_scope.hpp"
+#include "export/colored_parts.hpp"
+#include "export/model_writers.hpp"
+#include "export/written_mesh.hpp"
+#include "frontend/render_settings.hpp"
+#include "plane/figure.hpp"
+#include "solids/leaves.hpp"
+#include "solids/triangles_of.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Color;
+using csgcore::CsgToken;
+using csgcore::TriangleSet;
+
+/// Returns the colour in steps of 1/255, as files have it. A channel that color() has left open is
+/// that of the default scheme.
+Color written_color(const Color& color) {
+  const Rgb front = RenderSettings{}.scheme.front;
+  const auto channel = [](float value, uint8_t otherwise) {
+    return (value >= 0 ? std::round(255 * std::min(value, 1.0f)) : static_cast<float>(otherwise)) /
+           255;
+  };
+  return {channel(color.r, front.r), channel(color.g, front.g), channel(color.b, front.b),
+          channel(color.a, 255)};
+}
+
+Polygons outlines_of(const ImportedDesign& design) {
+  Polygons outlines;
+  for (const std::vector<csgcore::Vec3>& outline : design.flat_outlines) {
+    outlines.emplace_back(outline.begin(), outline.end());
+  }
+  return outlines;
+}
+
+csgcore::Box box_of(const TriangleSet& surface) {
+  csgcore::Box box;
+  for (const csgcore::Vec3& vertex : surface.vertices) box.merge(vertex);
+  return box;
+}
+
+std::string encoded(const TriangleSet& surface, ModelFormat format) {
+  switch (format) {
+    case ModelFormat::kAsciiStl:
+      return ascii_stl_of(surface);
+    case ModelFormat::kOff:
+      return off_of(surface);
+    case ModelFormat::kObj:
+      return obj_of(surface);
+    case ModelFormat::kAmf:
+      return amf_of(surface);
+    default:
+      return stl_of(surface);
+  }
+}
+
+std::string encoded(const Polygons& outlines, ModelFormat format) {
+  switch (format) {
+    case ModelFormat::kDxf:
+      return dxf_of(outlines);
+    case ModelFormat::kPdf:
+      return pdf_of(outlines);
+    default:
+      return svg_of(outlines);
+  }
+}
+
+}  // namespace
+
+ImportOptions options_for_export(ImportOptions options) {
+  options.picture = PictureKind::kRendered;
+  options.facets = Facets::kAll;
+  options.keeps_colors = true;
+  options.keeps_places = true;
+  options.measures_leaves = false;
+  return options;
+}
+
+ModelExport::ModelExport(const ImportedDesign& design, const DesignTree& tree, unsigned threads)
+    : design_(design), tree_(tree), threads_(threads) {}
+
+void ModelExport::check(ModelFormat format) const {
+  const auto fail = [&](const char* what) { throw Error(tree_.name, {}, what, ""); };
+  const bool is_plane = design_.is_plane_figure;
+  if (is_plane_format(format)) {
+    if (!is_plane) fail("Current top level object is not a 2D object.");
+    if (design_.flat_outlines.empty()) {
+      throw Error(tree_.name, {}, "the edges of the plane figure cross too often",
+                  "cut it into parts");
+    }
+  } else {
+    if (is_plane) fail("Current top level object is not a 3D object.");
+    if (design_.scene.model.empty()) fail("Current top level object is empty.");
+  }
+}
+
+std::string ModelExport::encode(ModelFormat format) {
+  check(format);
+  std::optional<tbb::global_control> limit;
+  if (threads_ > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads_);
+  if (is_plane_format(format)) return encoded(outlines_of(design_), format);
+  if (format == ModelFormat::k3mf) {
+    std::vector<ExportedPart> written;
+    for (const ExportedPart& part : parts()) {
+      TriangleSet rounded = written_mesh(part.surface, Precision::kFloat, tree_.name);
+      if (!rounded.triangles.empty()) written.push_back({std::move(rounded), part.color});
+    }
+    if (written.empty()) fail_as_too_small();
+    return three_mf_of(written);
+  }
+  const Precision precision = format == ModelFormat::kOff ? Precision::kDouble : Precision::kFloat;
+  const TriangleSet rounded = written_mesh(surface(), precision, tree_.name);
+  if (rounded.triangles.empty()) fail_as_too_small();
+  return encoded(rounded, format);
+}
+
+void ModelExport::fail_as_too_small() const {
+  throw Error(tree_.name, {}, "nothing is left of the solid in the numbers of this format",
+              "scale it up");
+}
+
+/// Makes the operands' surfaces. A primitive whose surface is open is left out, since it is no
+/// solid; but a design that is nothing else is written as it is.
+void ModelExport::find_operands() {
+  if (std::exchange(has_operands_, true)) return;
+  const csgcore::Scene& scene = design_.scene;
+  std::vector<uint32_t> used;
+  for (const CsgToken& token : scene.model.tokens()) {
+    if (token.is_primitive) used.push_back(token.value);
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  operands_.resize(scene.primitives.size());
+  std::vector<char> is_open(operands_.size());
+  tbb::parallel_for(size_t{0}, used.size(), [&, stop = csgcore::stop_of_work](size_t i) {
+    const csgcore::StopScope scope(stop);
+    csgcore::stop_point();
+    const uint32_t primitive = used[i];
+    operands_[primitive] = triangles_of(scene.primitives[primitive]);
+    is_open[primitive] = csgcore::open_edges(operands_[primitive]) > 0;
+  });
+  if (used.size() == 1 && is_open[used.front()]) {
+    surface_ = std::move(operands_[used.front()]);
+    parts_ = {{*surface_, {}}};
+    return;
+  }
+  NodeProblems problems;
+  for (const uint32_t primitive : used) {
+    if (!is_open[primitive]) continue;
+    const uint32_t id = scene.primitives[primitive].id;
+    if (id >= design_.places.size()) continue;  // it is no solid of the file's, but what is left
+    problems.add(tree_.nodes->nodes[design_.places[id]],
+                 {" is left out of the file: it is no solid", "close its surface"});
+  }
+  warnings_ = problems.warnings(tree_);
+  csgcore::CsgTreeBuilder builder;
+  rebuild(scene.model.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t primitive) {
+    is_open[primitive] ? to.empty() : to.primitive(primitive);
+  });
+  solid_ = builder.finish();
+}
+
+const TriangleSet& ModelExport::surface() {
+  find_operands();
+  if (!surface_) surface_ = csgcore::boundary_mesh(operands_, solid_);
+  if (surface_->triangles.empty()) {
+    throw Error(tree_.name, {}, "Current top level object is empty.", "");
+  }
+  return *surface_;
+}
+
+const std::vector<ExportedPart>& ModelExport::parts() {
+  find_operands();
+  if (parts_) return *parts_;
+  std::vector<csgcore::Box> boxes;
+  for (const TriangleSet& operand : operands_) boxes.push_back(box_of(operand));
+  const auto color_of = [&](uint32_t primitive) -> std::optional<Color> {
+    const std::optional<Color>& color = design_.scene.primitives[primitive].color;
+    return color ? std::optional(written_color(*color)) : std::nullopt;
+  };
+  std::vector<ColoredTree> trees = colored_trees(solid_, boxes, color_of);
+  parts_.emplace();
+  if (trees.size() == 1) {
+    parts_->push_back({surface(), trees.front().color});
+    return *parts_;
+  }
+  for (const ColoredTree& part : trees) {
+    TriangleSet surface = csgcore::boundary_mesh(operands_, part.tree);
+    if (!surface.triangles.empty()) parts_->push_back({std::move(surface), part.color});
+  }
+  if (parts_->empty()) throw Error(tree_.name, {}, "Current top level object is empty.", "");
+  return *parts_;
+}
+
+}  // namespace frontend
