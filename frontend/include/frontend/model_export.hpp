@@ -2,33 +2,20 @@
 // other programs read (frontend/OPTIONS.md).
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "csgcore/boundary_mesh.hpp"
-#include "csgcore/primitive.hpp"
+#include "csgcore/csg_tree.hpp"
 #include "frontend/design_tree.hpp"
 #include "frontend/error.hpp"
+#include "frontend/exported_part.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/imported_design.hpp"
+#include "frontend/model_format.hpp"
 
 namespace frontend {
-
-enum class ModelFormat : uint8_t { kStl, kAsciiStl, kOff, kObj, kAmf, k3mf, kSvg, kDxf, kPdf };
-
-/// Returns whether the format holds plane figures; the others hold solids.
-constexpr bool is_plane_format(ModelFormat format) {
-  return format == ModelFormat::kSvg || format == ModelFormat::kDxf || format == ModelFormat::kPdf;
-}
-
-/// A part of a solid that has one colour, or none. The parts of a solid share no volume, and where
-/// two of them meet, both have a surface.
-struct ExportedPart {
-  csgcore::TriangleSet surface;
-  std::optional<csgcore::Color> color;
-};
 
 /// Returns the options by which a design is imported for its export: as OpenSCAD's final render,
 /// with OpenSCAD's facets, and with the colours that 3MF holds.

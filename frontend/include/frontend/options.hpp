@@ -9,7 +9,7 @@
 #include "frontend/design_file_options.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/interrupt.hpp"
-#include "frontend/model_export.hpp"
+#include "frontend/model_format.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"

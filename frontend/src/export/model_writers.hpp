@@ -6,7 +6,7 @@
 #include <string>
 
 #include "csgcore/boundary_mesh.hpp"
-#include "frontend/model_export.hpp"
+#include "frontend/exported_part.hpp"
 #include "plane/figure.hpp"
 
 namespace frontend {

@@ -86,13 +86,30 @@ TEST(Options, ExportFormatStandsAboveTheSuffix) {
   EXPECT_EQ(parse_options({"-o", "a.exr", "--export-format", "PNG", "a"}).outputs[0].format,
             PictureFormat::kPng);
   EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
-  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=stl", "a"}),
-              HasSubstr("png, exr, csg and echo"));
+  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=nef3", "a"}),
+              HasSubstr("give png or exr; csg or echo; stl, binstl, asciistl, off"));
+}
+
+TEST(Options, Models) {
+  const Options options =
+      parse_options({"-o", "a.stl", "-o", "b.3MF", "-o", "c.png", "-o", "d.svg", "a"});
+  ASSERT_EQ(options.models.size(), 3u);
+  EXPECT_EQ(options.models[0].format, ModelFormat::kStl);
+  EXPECT_EQ(options.models[1].format, ModelFormat::k3mf);
+  EXPECT_EQ(options.models[2].format, ModelFormat::kSvg);
+  EXPECT_EQ(options.outputs.size(), 1u);
+  const Options text = parse_options({"-o", "a.stl", "--export-format=asciistl", "a"});
+  EXPECT_EQ(text.models.at(0).format, ModelFormat::kAsciiStl);
+  EXPECT_EQ(text.action, Action::kDraw);
+  EXPECT_THAT(error_of({"-o", "-", "-o", "-", "--export-format=stl", "a"}),
+              HasSubstr("standard output"));
+  EXPECT_THAT(error_of({"-o", "x.stl", "-o", "y.off", "--animate=2049", "a"}),
+              HasSubstr("more than 4096 models: 2 of -o"));
 }
 
 TEST(Options, OutputsThatCannotBe) {
-  EXPECT_THAT(error_of({"-o", "x.stl", "a.scad"}), HasSubstr("openscad writes"));
-  for (const char* name : {"x.stl", "x", "a.png/x", ".", "x.png.gz"}) {
+  EXPECT_THAT(error_of({"-o", "x.nef3", "a.scad"}), HasSubstr(".stl, .off, .obj, .3mf"));
+  for (const char* name : {"x.ply", "x", "a.png/x", ".", "x.png.gz"}) {
     EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png or .exr")) << name;
   }
   EXPECT_THAT(error_of({"-o", "-", "-o", "-", "--export-format=png", "a"}),

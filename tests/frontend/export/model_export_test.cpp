@@ -1,0 +1,162 @@
+// Tests what is exported of a design: its parts, their colours, and what is left out.
+#include "frontend/model_export.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
+#include "meshes/read_solid_file.hpp"
+#include "meshes/zip_archive.hpp"
+
+namespace frontend {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A design that was read from the text of a .csg.
+class Exported {
+ public:
+  explicit Exported(const std::string& text)
+      : tree_(parse(text, "a.csg")),
+        design_(import_design(tree_, options_for_export({}))),
+        model_(design_, tree_) {}
+
+  std::string as(ModelFormat format) { return model_.encode(format); }
+  /// Returns the message of the Error that as() throws; empty if nothing.
+  std::string error(ModelFormat format) {
+    try {
+      model_.encode(format);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  double volume(ModelFormat format = ModelFormat::kOff) {
+    const std::string bytes = as(format);
+    SolidFile file = format == ModelFormat::kOff   ? read_off(bytes, "a")
+                     : format == ModelFormat::kAmf ? read_amf(bytes, "a")
+                     : format == ModelFormat::k3mf ? read_3mf(bytes, "a")
+                                                   : read_stl(bytes, "a");
+    EXPECT_EQ(file.problem, "");
+    return enclosed_volume(file.faces);
+  }
+  std::string three_mf() {
+    return ZipArchive(as(ModelFormat::k3mf)).unpack("3D/3dmodel.model").value_or("");
+  }
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> texts;
+    for (const Warning& warning : model_.warnings()) texts.push_back(warning.text);
+    return texts;
+  }
+  const ImportedDesign& design() const { return design_; }
+
+ private:
+  DesignTree tree_;
+  ImportedDesign design_;
+  ModelExport model_;
+};
+
+const std::string kCube = "cube(size = [1, 2, 3], center = false);\n";
+const std::string kFar = "multmatrix([[1,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
+const std::string kOpen =
+    "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]], "
+    "faces = [[0,1,2],[0,3,1],[0,2,3]], convexity = 1);\n";
+
+TEST(ModelExport, EveryFormatHoldsTheSolid) {
+  for (const ModelFormat format : {ModelFormat::kStl, ModelFormat::kAsciiStl, ModelFormat::kOff,
+                                   ModelFormat::kAmf, ModelFormat::k3mf}) {
+    Exported exported(kCube + kFar + "{" + kCube + "}");
+    EXPECT_NEAR(exported.volume(format), 12, 1e-5);
+    EXPECT_THAT(exported.warnings(), IsEmpty());
+  }
+  EXPECT_THAT(Exported(kCube).as(ModelFormat::kObj), HasSubstr("\nv 1 2 3\n"));
+}
+
+TEST(ModelExport, RoundSolidsHaveOpenScadsFacets) {
+  const std::string text =
+      Exported("cylinder($fn = 0, $fa = 12, $fs = 2, h = 1, r1 = 2, r2 = 2, center = false);")
+          .as(ModelFormat::kOff);
+  EXPECT_THAT(text, testing::StartsWith("OFF 14 24 0\n"));
+}
+
+TEST(ModelExport, BackgroundIsLeftOutAndHighlightsAreNot) {
+  EXPECT_NEAR(Exported("%" + kCube + "#" + kFar + "{" + kCube + "}").volume(), 6, 1e-9);
+}
+
+TEST(ModelExport, AMirroredSolidIsNotInsideOut) {
+  Exported exported("multmatrix([[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {" + kCube + "}");
+  EXPECT_NEAR(exported.volume(), 6, 1e-9);
+}
+
+TEST(ModelExport, FormatsHoldTheirDimensionAlone) {
+  const std::string square = "square(size = [1, 2], center = false);\n";
+  EXPECT_EQ(Exported(square).error(ModelFormat::kStl),
+            "a.csg: error: Current top level object is not a 3D object.");
+  EXPECT_EQ(Exported(kCube).error(ModelFormat::kSvg),
+            "a.csg: error: Current top level object is not a 2D object.");
+  EXPECT_EQ(Exported("group();").error(ModelFormat::kOff),
+            "a.csg: error: Current top level object is empty.");
+  EXPECT_EQ(Exported("group();").error(ModelFormat::kDxf),
+            "a.csg: error: Current top level object is not a 2D object.");
+  EXPECT_EQ(Exported("%" + kCube).error(ModelFormat::k3mf),
+            "a.csg: error: Current top level object is empty.");
+  EXPECT_THAT(Exported(square).as(ModelFormat::kSvg), HasSubstr("M 1,-2 L 0,-2 L 0,0 L 1,0 z\n"));
+  EXPECT_THAT(Exported(square).as(ModelFormat::kDxf), HasSubstr("LINE"));
+  EXPECT_THAT(Exported(square).as(ModelFormat::kPdf), HasSubstr("/MediaBox"));
+}
+
+TEST(ModelExport, FloatsAreTooCoarseForSomeSolids) {
+  const std::string tiny = "cube(size = [1e-9, 1e-9, 1e-9], center = false);";
+  Exported exported("multmatrix([[1,0,0,9],[0,1,0,9],[0,0,1,9],[0,0,0,1]]) {" + tiny + "}");
+  EXPECT_THAT(exported.error(ModelFormat::kStl), HasSubstr("nothing is left of the solid"));
+  EXPECT_THAT(exported.error(ModelFormat::k3mf), HasSubstr("nothing is left of the solid"));
+  EXPECT_EQ(exported.error(ModelFormat::kOff), "");
+}
+
+TEST(ModelExport, AnOpenSurfaceIsLeftOut) {
+  Exported exported(kCube + kOpen);
+  EXPECT_NEAR(exported.volume(), 6, 1e-9);
+  EXPECT_THAT(exported.warnings(),
+              ElementsAre("a.csg:2:1: warning: polyhedron is left out of the file: it is no solid "
+                          "(close its surface)"));
+}
+
+TEST(ModelExport, AnOpenSurfaceAloneIsWrittenAsItIs) {
+  Exported exported(kOpen);
+  EXPECT_THAT(exported.as(ModelFormat::kOff), testing::StartsWith("OFF 4 3 0\n"));
+  EXPECT_THAT(exported.warnings(), IsEmpty());
+}
+
+TEST(ModelExport, ColoursAreMaterialsOfThreeMf) {
+  Exported exported("color([1, 0, 0, 1]) {" + kCube + "}" + kFar + "{" + kCube +
+                    "} color([1, 0, 0, 1]) " + kFar + kFar + "{" + kCube + "}");
+  EXPECT_THAT(exported.three_mf(),
+              AllOf(HasSubstr("displaycolor=\"#FF0000FF\""), HasSubstr("part 2\" type=\"model\">"),
+                    Not(HasSubstr("part 3"))));
+  EXPECT_NEAR(exported.volume(ModelFormat::k3mf), 18, 1e-5);
+  EXPECT_NEAR(exported.volume(), 18, 1e-9);
+  EXPECT_THAT(exported.design().scene.layers, IsEmpty());
+}
+
+TEST(ModelExport, TranslucentColoursMakeNoLayers) {
+  Exported exported("color([0, 0, 1, 0.25]) {" + kCube + "}");
+  EXPECT_THAT(exported.three_mf(),
+              AllOf(HasSubstr("displaycolor=\"#0000FF40\""), Not(HasSubstr("components"))));
+  EXPECT_THAT(exported.design().scene.layers, IsEmpty());
+}
+
+TEST(ModelExport, TheSameDesignGivesTheSameBytes) {
+  const std::string text = "color([1, 0, 0, 1]) {" + kCube + "}" + kFar + "{" + kCube + "}";
+  EXPECT_EQ(Exported(text).as(ModelFormat::k3mf), Exported(text).as(ModelFormat::k3mf));
+  EXPECT_EQ(Exported(text).as(ModelFormat::kStl), Exported(text).as(ModelFormat::kStl));
+}
+
+}  // namespace
+}  // namespace frontend
