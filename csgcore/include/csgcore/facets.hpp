@@ -16,9 +16,11 @@ struct FacetSettings {
   double fn = 0;
   double fa = 12;
   double fs = 2;
+  /// In place of the others unless it is 0: the largest distance of a circle from its chords.
+  double tolerance = 0;
 };
 
-/// Returns how many fragments OpenSCAD gives a circle of that radius, at least 3. Counts above 2^31
+/// Returns how many fragments a circle of that radius has by the settings, at least 3. Counts above 2^31
 /// − 1 are clamped to it.
 int fragment_count(double radius, const FacetSettings& settings);
 

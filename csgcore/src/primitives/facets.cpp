@@ -161,6 +161,13 @@ Vec3 area_vector(const Mesh& mesh, const std::vector<uint32_t>& face) {
 }  // namespace
 
 int fragment_count(double radius, const FacetSettings& settings) {
+  constexpr double kFewestFragments = 5;  // OpenSCAD's, without $fn
+  if (settings.tolerance > 0) {
+    // radius · (1 − cos(π/n)) ≤ tolerance, where 1 − cos(x) = 2·sin²(x/2)
+    const double sine = std::sqrt(std::min(settings.tolerance / radius / 2, 1.0));
+    const double wanted = std::numbers::pi / (2 * std::asin(sine));
+    return static_cast<int>(std::ceil(std::clamp(wanted, kFewestFragments, kMostFragments)));
+  }
   if (radius < kGridFine || !std::isfinite(settings.fn)) return 3;
   if (settings.fn > 0) {
     return static_cast<int>(std::clamp(settings.fn, 3.0, kMostFragments));
@@ -168,7 +175,7 @@ int fragment_count(double radius, const FacetSettings& settings) {
   const double fa = std::max(settings.fa, kLeastFacetSetting);
   const double fs = std::max(settings.fs, kLeastFacetSetting);
   const double wanted = std::min(360 / fa, radius * 2 * std::numbers::pi / fs);
-  return static_cast<int>(std::ceil(std::clamp(wanted, 5.0, kMostFragments)));
+  return static_cast<int>(std::ceil(std::clamp(wanted, kFewestFragments, kMostFragments)));
 }
 
 int ring_count(int fragments) { return fragments / 2 + fragments % 2; }

@@ -68,6 +68,9 @@ struct ImportOptions {
   double few_fragments = 8;
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
+  /// With kAll, unless it is 0: facets are at most so far from the round surface, in the world's
+  /// units, in place of OpenSCAD's. What kFew would keep stays what it is.
+  double tolerance = 0;
   PictureKind picture = PictureKind::kPreview;
   /// Keep color() in a final render, too. Its layers stay those of an opaque solid.
   bool keeps_colors = false;

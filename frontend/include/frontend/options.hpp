@@ -54,6 +54,7 @@ struct Options {
   std::vector<Output> outputs;
   std::vector<TextOutput> texts;    // written first
   std::vector<ModelOutput> models;  // written before the pictures
+  double model_tolerance = 0;       // ImportOptions::tolerance of the models
   Evaluator evaluator = kDefaultEvaluator;
   std::string stats_path;  // empty: none; "-": standard output
   std::string editor;      // --editor; empty: the environment tells it

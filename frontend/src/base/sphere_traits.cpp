@@ -40,7 +40,10 @@ class SphereTraits final : public PrimitiveTraits {
   double extent(const Primitive& primitive) const override { return radius_of(primitive); }
 
   int fragments(const Primitive& primitive, const csgcore::FacetSettings& settings) const override {
-    return csgcore::fragment_count(radius_of(primitive), settings);
+    // Facets are chords in two directions (inscribed_share()), and c² ≥ 1 − 2·(1 − c).
+    csgcore::FacetSettings of_chords = settings;
+    of_chords.tolerance = settings.tolerance / 2;
+    return csgcore::fragment_count(radius_of(primitive), of_chords);
   }
   Box faceted_box(const Primitive& primitive,
                   const csgcore::FacetSettings& settings) const override {

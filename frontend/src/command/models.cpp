@@ -65,6 +65,7 @@ class ModelRun {
   DesignFile read(uint32_t frame) {
     DesignFileOptions reading;
     reading.import = options_for_export(options_.import);
+    reading.import.tolerance = options_.model_tolerance;
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
     reading.text = text_;

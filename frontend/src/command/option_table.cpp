@@ -94,6 +94,9 @@ constexpr OptionRow kOwnOptions[] = {
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
      "is exactly round",
      kOneOf<kFacets>},
+    {"tolerance", Takes::kText, "T",
+     "facets of what is exported are at most T from the round surface, and their corners on it; "
+     "default: OpenSCAD's facets"},
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW", "openscad (default) or phong", kOneOf<kShadings>},

@@ -1,6 +1,7 @@
 #include "frontend/options.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -92,6 +93,15 @@ void read_facets(const Arguments& arguments, ImportOptions& import) {
     import.few_fragments = *fragments;
   } else {
     bad_value("facets", value, "give a whole number from 0 to 4294967295, all or none");
+  }
+}
+
+void read_tolerance(const Arguments& arguments, Options& options) {
+  options.model_tolerance = arguments.number<double>(
+      "tolerance", std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), 0,
+      "give a length above 0, in the design's units");
+  if (arguments.has("tolerance") && options.models.empty()) {
+    options.warnings.push_back("--tolerance has no effect without -o of a solid or plane figure");
   }
 }
 
@@ -341,6 +351,7 @@ Options parse_options(const std::vector<std::string>& words) {
   options.import.rendering.timeout_s = read_openscad_timeout(arguments);
   read_render(arguments, options.render);
   read_outputs(arguments, options);
+  read_tolerance(arguments, options);
   read_view(arguments, options);
   if (options.outputs.empty() && options.texts.empty() && options.models.empty())
     options.action = Action::kOpenWindow;

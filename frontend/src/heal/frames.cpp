@@ -14,16 +14,14 @@ using csgcore::Vec3;
 
 Mat3 absolute(const Mat3& m) { return Mat3(glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])); }
 
-/// Returns an upper bound of how much the matrix stretches: |M|² = |MᵀM| is at most the largest row
-/// sum of |MᵀM|. For a similarity the bound is its scale itself, so that it does not grow along a
-/// chain of rotations.
+}  // namespace
+
 double stretch_bound(const Mat3& m) {
+  // |M|² = |MᵀM| is at most the largest row sum of |MᵀM|.
   const Mat3 square = absolute(glm::transpose(m) * m);
   const Vec3 sums = square[0] + square[1] + square[2];
   return std::sqrt(std::max(sums.x, std::max(sums.y, sums.z)));
 }
-
-}  // namespace
 
 FrameTree::FrameTree() : frames_(1), errors_(1) {}
 

@@ -27,6 +27,10 @@ struct Frame {
 };
 
 /// All frames of a file; frame 0 is the world.
+/// Returns an upper bound of how much the matrix stretches. For a similarity the bound is its scale
+/// itself, so that it does not grow along a chain of rotations.
+double stretch_bound(const csgcore::Mat3& m);
+
 class FrameTree {
  public:
   FrameTree();

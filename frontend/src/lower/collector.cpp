@@ -99,6 +99,20 @@ FaceSet flat_faces_of(const Primitive& primitive) {
   return faces;
 }
 
+/// Returns by how much a node stretches its children, at most, as far as it tells. A revolution
+/// counts as 2: it has half of the tolerance, and its figure the other half.
+double stretch_of(const NodeData& data) {
+  if (const auto* matrix = std::get_if<FileMatrix>(&data)) {
+    const double stretch = is_affine(*matrix) ? stretch_bound(heal(*matrix).map.linear) : 1;
+    return stretch > 0 && std::isfinite(stretch) ? stretch : 1;
+  }
+  if (const auto* extrusion = std::get_if<LinearExtrudeNode>(&data)) {
+    const Vec2& scale = extrusion->arguments.top_scale;
+    return std::max({1.0, scale.x, scale.y});
+  }
+  return std::holds_alternative<RotateExtrudeNode>(data) ? 2 : 1;
+}
+
 /// Tells that a part of a final render has another dimension than the first one.
 void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
   problems.add(node, {dimension == 2 ? ": Ignoring 2D child object for 3D operation"
@@ -150,12 +164,39 @@ void Collector::survey() {
   for (uint32_t i = selected.begin; i < selected.end && !any_modifiers; ++i) {
     any_modifiers = modifiers_of(tree_, selected, i) != 0;
   }
+  if (options_.tolerance > 0) find_stretches();
   primitive_of.assign(count, kNoPrimitive);
   primitives.reserve(solids);
   frame_of.reserve(solids);
   boxes.reserve(solids);
   fragments.reserve(solids);
   frames.reserve(matrices);
+}
+
+/// Finds by how much the nodes around each one stretch it, at most. What resize() stretches is not
+/// known yet.
+void Collector::find_stretches() {
+  struct Open {
+    uint32_t end;
+    double stretch;
+  };
+  std::vector<Open> open = {{kNoPrimitive, 1}};
+  NodeProblems told;  // when the node is taken
+  stretches_.reserve(tree_.nodes.size());
+  for (uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+    while (open.back().end <= i) open.pop_back();
+    stretches_.push_back(open.back().stretch);
+    const Node& node = tree_.nodes[i];
+    if (node.end == i + 1) continue;
+    NodeReader reader(tree_, node, told);
+    const double own =
+        row_of(node.kind).read == nullptr ? 1 : stretch_of(read_node(reader, {options_, fonts}));
+    if (own != 1) open.push_back({node.end, open.back().stretch * own});
+  }
+}
+
+NodeSources Collector::sources_of(uint32_t node) {
+  return {options_, fonts, stretches_.empty() ? 1 : stretches_[node]};
 }
 
 void Collector::finish(const std::stop_token& stop) {
@@ -257,7 +298,7 @@ std::optional<SolidShape> Collector::read_solid(uint32_t index) {
   const Node& node = tree_.nodes[index];
   NodeReader reader(tree_, node, problems);
   std::optional<SolidShape> shape =
-      solid_shape(read_node(reader, {options_, fonts}), node, {polyhedra, files}, problems);
+      solid_shape(read_node(reader, sources_of(index)), node, {polyhedra, files}, problems);
   if (!shape || shape->faces == nullptr) return shape;
   const SolidOfFaces& faces = *shape->faces;
   if (faces.is_empty()) {
@@ -380,7 +421,7 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
 PlaneSubtree Collector::read_plane(uint32_t root) {
   PlaneSubtree subtree(tree_, root);
   for (uint32_t i = root; i < tree_.nodes[root].end; ++i) {
-    subtree.take(ids_[i], {options_, fonts}, files, problems);
+    subtree.take(ids_[i], sources_of(i), files, problems);
   }
   // The leaf's primitives have the id of its first primitive node.
   const bool has_id = ids_[tree_.nodes[root].end] > ids_[root];

@@ -104,6 +104,8 @@ class Collector {
   }
   bool has_children(uint32_t node) const { return tree_.nodes[node].end > node + 1; }
   void survey();
+  void find_stretches();
+  NodeSources sources_of(uint32_t node);
   bool visit(uint32_t node);
   void leave_out(uint32_t node, const std::string& why);
   void enter_matrix(uint32_t node);
@@ -159,6 +161,8 @@ class Collector {
   std::vector<Context> contexts_;
   /// By node, and behind the last one: how many primitive nodes stand before it.
   std::vector<uint32_t> ids_;
+  /// By node: NodeSources::stretch. Empty: all are 1.
+  std::vector<double> stretches_;
   /// The end of the node at the top that was entered last, and the dimension of the first one that
   /// has any, which all others must have (0: there was none). Only final renders keep them.
   uint32_t top_node_end_ = 0;

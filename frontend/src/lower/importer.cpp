@@ -206,7 +206,8 @@ class Emitter {
 };
 
 /// Healing is done by then: it knows axes and caps of what is round.
-void facet(const DesignTree& tree, Collector& collected, std::vector<Warning>& warnings) {
+void facet(const DesignTree& tree, Collector& collected, const ImportOptions& options,
+           std::vector<Warning>& warnings) {
   uint32_t count = 0;
   uint32_t first = kNone;  // primitive
   for (uint32_t i = 0; i < collected.primitives.size(); ++i) {
@@ -223,7 +224,7 @@ void facet(const DesignTree& tree, Collector& collected, std::vector<Warning>& w
                    std::to_string(count) + " round primitive" +
                        (count == 1 ? " is smooth" : "s are smooth; this is the first") +
                        ": more than " + std::to_string(kMostFacets) + " facets would be needed",
-                   "give a smaller $fn"));
+                   options.tolerance > 0 ? "give a larger --tolerance" : "give a smaller $fn"));
 }
 
 /// Parts of a hull are drawn beside it, or over it, as those of a group are.
@@ -324,7 +325,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   collected.frame_of = {};
   if (collected.compound_leaves.empty() && collected.plane_leaves.empty()) collected.frames = {};
   throw_if_stopped(stop);
-  facet(tree, collected, design.warnings);
+  facet(tree, collected, options, design.warnings);
   design.meshes = collected.polyhedra.take_meshes();
   design.files = collected.files.paths();
   design.has_text = collected.fonts.are_used();

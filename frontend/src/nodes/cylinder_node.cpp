@@ -11,7 +11,7 @@ const NodeRow kCylinderRow{
     .dimension = 3,
     .label = kCylinderLabel,
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
-      return chosen(sources.options, read_cylinder(reader));
+      return chosen(sources, read_cylinder(reader));
     },
 };
 

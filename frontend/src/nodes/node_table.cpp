@@ -25,6 +25,18 @@ csgcore::FacetSettings chosen(const ImportOptions& options, csgcore::FacetSettin
   return facets;
 }
 
+csgcore::FacetSettings chosen(const NodeSources& sources, csgcore::FacetSettings facets) {
+  facets = chosen(sources.options, facets);
+  const bool is_polygon = facets.fn > 0 && facets.fn <= sources.options.few_fragments;
+  if (!is_polygon) facets.tolerance = sources.options.tolerance / sources.stretch;
+  return facets;
+}
+
+RoundNode chosen(const NodeSources& sources, RoundNode round) {
+  round.facets = chosen(sources, round.facets);
+  return round;
+}
+
 RoundNode chosen(const ImportOptions& options, RoundNode round) {
   round.facets = chosen(options, round.facets);
   return round;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr language::ArgumentName kOffsetLabel[] = {"r", "delta"};
 
-OffsetSettings read_offset(NodeReader& reader, const ImportOptions& options) {
+OffsetSettings read_offset(NodeReader& reader, const NodeSources& sources) {
   OffsetSettings result{1, CornerStyle::kRound, std::nullopt};
   const std::optional<double> r = reader.number("r", 0);
   const std::optional<double> delta = reader.number("delta", 1);
@@ -21,8 +21,8 @@ OffsetSettings read_offset(NodeReader& reader, const ImportOptions& options) {
         reader.find("chamfer", 2).is_true() ? CornerStyle::kSquare : CornerStyle::kSharp;
   }
   if (!std::isfinite(result.distance)) result.distance = 0;
-  const csgcore::FacetSettings facets = chosen(options, reader.facets());
-  if (keeps_facets(options, facets)) {
+  const csgcore::FacetSettings facets = chosen(sources, reader.facets());
+  if (keeps_facets(sources.options, facets)) {
     result.fragments = csgcore::fragment_count(std::abs(result.distance), facets);
   }
   return result;
@@ -36,7 +36,7 @@ const NodeRow kOffsetRow{
     .joins_figures = true,
     .label = kOffsetLabel,
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
-      return read_offset(reader, sources.options);
+      return read_offset(reader, sources);
     },
     .figures =
         [](PlaneEvaluation& planes, uint32_t node) {

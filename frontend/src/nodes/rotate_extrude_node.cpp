@@ -72,7 +72,8 @@ const NodeRow kRotateExtrudeRow{
     .label = kRotateExtrudeLabel,
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
       RotateExtrudeNode result{read_rotate_extrude(reader)};
-      result.arguments.facets = chosen(sources.options, result.arguments.facets);
+      result.arguments.facets = chosen(sources, result.arguments.facets);
+      result.arguments.facets.tolerance /= 2;  // the figure has the other half
       result.is_faceted = keeps_facets(sources.options, result.arguments.facets);
       return result;
     },

@@ -12,7 +12,7 @@ const NodeRow kSphereRow{
     .dimension = 3,
     .label = kSphereLabel,
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
-      return chosen(sources.options, read_sphere(reader));
+      return chosen(sources, read_sphere(reader));
     },
 };
 

@@ -105,7 +105,7 @@ int pieces_of_curves(const csgcore::FacetSettings& facets, double size,
 
 TextNode read_text(NodeReader& reader, const NodeSources& sources) {
   const TextSettings text = read_settings(reader);
-  const csgcore::FacetSettings facets = chosen(sources.options, reader.facets());
+  const csgcore::FacetSettings facets = chosen(sources, reader.facets());
   const int pieces = pieces_of_curves(facets, text.size, sources.options);
   return {letters_of(reader, text, pieces, sources.fonts)};
 }

@@ -44,6 +44,8 @@ enum class InnerParts : uint8_t {
 struct NodeSources {
   const ImportOptions& options;
   DesignFonts& fonts;
+  /// The most that nodes around this one stretch it by, for ImportOptions::tolerance.
+  double stretch = 1;
 };
 
 struct NodeRow {
@@ -100,6 +102,8 @@ inline NodeData read_node(NodeReader& reader, const NodeSources& sources) {
 constexpr std::string_view kBecauseUnknown = "OpenSCAD 2021.01 does not know it";
 
 /// Returns a node's facets, or those that the user asks for in their place.
+csgcore::FacetSettings chosen(const NodeSources& sources, csgcore::FacetSettings facets);
+RoundNode chosen(const NodeSources& sources, RoundNode round);
 csgcore::FacetSettings chosen(const ImportOptions& options, csgcore::FacetSettings facets);
 RoundNode chosen(const ImportOptions& options, RoundNode round);
 /// Returns whether what OpenSCAD draws with these settings is drawn in facets, if it has any.

@@ -166,8 +166,9 @@ TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius)
   TurnSections sections;
   sections.angle = arguments.angle;
   const double share = std::abs(arguments.angle) / 360;
-  sections.count =
-      std::max(1, static_cast<int>(csgcore::fragment_count(radius, arguments.facets) * share));
+  const double count = csgcore::fragment_count(radius, arguments.facets) * share;
+  const bool is_fine = arguments.facets.tolerance > 0;
+  sections.count = std::max(1, static_cast<int>(is_fine ? std::ceil(count) : count));
   sections.start = arguments.start.value_or(sections.is_closed() ? 180 : 0);
   return sections;
 }

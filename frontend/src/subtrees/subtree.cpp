@@ -3,14 +3,14 @@
 namespace frontend {
 namespace {
 
-const ImportedDrawing* drawing_of(NodeReader& reader, const ImportOptions& options,
+const ImportedDrawing* drawing_of(NodeReader& reader, const NodeSources& sources,
                                   FileImports& files) {
   if (!names_drawing(reader.tree(), reader.node())) return nullptr;
   DrawingArguments arguments = read_drawing(reader);
-  arguments.dxf.facets = chosen(options, arguments.dxf.facets);
-  arguments.dxf.is_faceted = keeps_facets(options, arguments.dxf.facets);
+  arguments.dxf.facets = chosen(sources, arguments.dxf.facets);
+  arguments.dxf.is_faceted = keeps_facets(sources.options, arguments.dxf.facets);
   // OpenSCAD's chords of an SVG do not depend on $fn: none is meant to be a polygon.
-  arguments.svg.is_faceted = options.facets == Facets::kAll;
+  arguments.svg.is_faceted = sources.options.facets == Facets::kAll;
   const ImportedDrawing& drawing = files.drawing(arguments);
   for (const DrawingProblem& problem : drawing.problems) {
     reader.tell({": " + problem.what, problem.todo});
@@ -27,7 +27,7 @@ void PlaneSubtree::take(uint32_t id, const NodeSources& sources, FileImports& fi
   NodeProblems untold;
   NodeReader reader(tree_, node, node.kind == NodeKind::kColor ? untold : problems);
   NodeData data = read_node(reader, sources);
-  nodes_.push_back({id, std::move(data), drawing_of(reader, sources.options, files)});
+  nodes_.push_back({id, std::move(data), drawing_of(reader, sources, files)});
 }
 
 PlaneSubtree PlaneSubtree::part(uint32_t node) const {

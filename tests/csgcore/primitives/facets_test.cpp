@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -41,6 +42,21 @@ TEST(FragmentCount, IsOpenSCADs) {
     EXPECT_EQ(fragment_count(c.radius, c.settings), c.fragments)
         << c.radius << ' ' << c.settings.fn << ' ' << c.settings.fa << ' ' << c.settings.fs;
   }
+}
+
+TEST(Facets, AreAsFineAsTheToleranceAsks) {
+  const auto depth = [](double radius, int fragments) {
+    return 2 * radius * std::pow(std::sin(std::numbers::pi / fragments / 2), 2);
+  };
+  for (const double radius : {0.3, 10.0, 1e6}) {
+    for (const double tolerance : {1e-9, 1e-3, 0.01}) {
+      const int fragments = fragment_count(radius, {.fn = 100, .tolerance = tolerance});
+      EXPECT_LE(depth(radius, fragments), tolerance * (1 + 1e-12));
+      EXPECT_GT(depth(radius, fragments - 1), tolerance);
+    }
+  }
+  EXPECT_EQ(fragment_count(1, {.tolerance = 5}), 5);
+  EXPECT_EQ(fragment_count(1e300, {.tolerance = 1e-300}), std::numeric_limits<int>::max());
 }
 
 /// A primitive as text and as this module makes it.

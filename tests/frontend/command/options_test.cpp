@@ -107,6 +107,16 @@ TEST(Options, Models) {
               HasSubstr("more than 4096 models: 2 of -o"));
 }
 
+TEST(Options, Tolerance) {
+  EXPECT_EQ(parse_options({"-o", "a.stl", "a"}).model_tolerance, 0);
+  EXPECT_EQ(parse_options({"-o", "a.stl", "--tolerance=0.01", "a"}).model_tolerance, 0.01);
+  for (const char* value : {"0", "-1", "x", "inf", "nan"}) {
+    EXPECT_THAT(error_of({"-o", "a.stl", "--tolerance", value, "a"}), HasSubstr("above 0"));
+  }
+  EXPECT_THAT(parse_options({"-o", "a.png", "--tolerance=1", "a"}).warnings,
+              testing::ElementsAre(HasSubstr("--tolerance has no effect")));
+}
+
 TEST(Options, OutputsThatCannotBe) {
   EXPECT_THAT(error_of({"-o", "x.nef3", "a.scad"}), HasSubstr(".stl, .off, .obj, .3mf"));
   for (const char* name : {"x.ply", "x", "a.png/x", ".", "x.png.gz"}) {

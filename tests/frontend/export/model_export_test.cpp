@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
@@ -23,9 +27,9 @@ using testing::Not;
 /// A design that was read from the text of a .csg.
 class Exported {
  public:
-  explicit Exported(const std::string& text)
+  explicit Exported(const std::string& text, double tolerance = 0)
       : tree_(parse(text, "a.csg")),
-        design_(import_design(tree_, options_for_export({}))),
+        design_(import_design(tree_, options_of(tolerance))),
         model_(design_, tree_) {}
 
   std::string as(ModelFormat format) { return model_.encode(format); }
@@ -58,6 +62,12 @@ class Exported {
   const ImportedDesign& design() const { return design_; }
 
  private:
+  static ImportOptions options_of(double tolerance) {
+    ImportOptions options = options_for_export({});
+    options.tolerance = tolerance;
+    return options;
+  }
+
   DesignTree tree_;
   ImportedDesign design_;
   ModelExport model_;
@@ -84,6 +94,60 @@ TEST(ModelExport, RoundSolidsHaveOpenScadsFacets) {
       Exported("cylinder($fn = 0, $fa = 12, $fs = 2, h = 1, r1 = 2, r2 = 2, center = false);")
           .as(ModelFormat::kOff);
   EXPECT_THAT(text, testing::StartsWith("OFF 14 24 0\n"));
+}
+
+/// Returns how far the corners of a design's surface are from a round one, at most, and how deep
+/// the triangles are below it.
+std::pair<double, double> distances(const std::string& text, double tolerance,
+                                    const std::function<double(const csgcore::Vec3&)>& height) {
+  const std::string bytes = Exported(text, tolerance).as(ModelFormat::kOff);
+  const FaceSet faces = read_off(bytes, "a").faces;
+  double farthest = 0, deepest = 0;
+  for (const csgcore::Vec3& point : faces.points) {
+    farthest = std::max(farthest, std::abs(height(point)));
+  }
+  for (size_t i = 0; i < faces.face_count(); ++i) {
+    const auto face = faces.face(i);
+    const csgcore::Vec3 &a = faces.points[face[0]], &b = faces.points[face[1]],
+                        &c = faces.points[face[2]];
+    for (const csgcore::Vec3& point : {(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0}) {
+      deepest = std::max(deepest, -height(point));
+    }
+  }
+  return {farthest, deepest};
+}
+
+TEST(ModelExport, FacetsAreAsFineAsTheToleranceAsks) {
+  const std::string facets = "($fn = 0, $fa = 12, $fs = 2, ", many = "($fn = 200, ";
+  const auto ball = [](const csgcore::Vec3& p) { return glm::length(p) - 10; };
+  const auto torus = [](const csgcore::Vec3& p) {
+    return std::hypot(std::hypot(p.x, p.y) - 10, p.z) - 3;
+  };
+  const std::string sphere = "sphere" + facets + "r = 10);";
+  const std::string scaled =
+      "multmatrix([[0,8,0,0],[8,0,0,0],[0,0,8,0],[0,0,0,1]]) sphere" + facets + "r = 1.25);";
+  const std::string turned =
+      "rotate_extrude(angle = 360, convexity = 2, $fn = 0, $fa = 12, $fs = "
+      "2) multmatrix([[1,0,0,10],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) circle" +
+      facets + "r = 3);";
+  for (const double tolerance : {0.1, 0.01}) {
+    for (const auto& [text, height] :
+         {std::pair<std::string, std::function<double(const csgcore::Vec3&)>>(sphere, ball),
+          {"sphere" + many + "r = 10);", ball},
+          {scaled, ball},
+          {turned, torus}}) {
+      SCOPED_TRACE(text);
+      const auto [farthest, deepest] = distances(text, tolerance, height);
+      EXPECT_LT(farthest, 1e-9);
+      EXPECT_LE(deepest, tolerance);
+      EXPECT_GT(deepest, 0.9 * tolerance) << "finer than asked";
+    }
+  }
+}
+
+TEST(ModelExport, APolygonIsNoRoundFaceWhateverTheTolerance) {
+  const std::string prism = "cylinder($fn = 6, h = 1, r1 = 2, r2 = 2, center = false);";
+  EXPECT_EQ(Exported(prism, 0.001).as(ModelFormat::kOff), Exported(prism).as(ModelFormat::kOff));
 }
 
 TEST(ModelExport, BackgroundIsLeftOutAndHighlightsAreNot) {
