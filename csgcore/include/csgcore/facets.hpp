@@ -20,8 +20,8 @@ struct FacetSettings {
   double tolerance = 0;
 };
 
-/// Returns how many fragments a circle of that radius has by the settings, at least 3. Counts above 2^31
-/// − 1 are clamped to it.
+/// Returns how many fragments a circle of that radius has by the settings, at least 3. Counts above
+/// 2^31 − 1 are clamped to it.
 int fragment_count(double radius, const FacetSettings& settings);
 
 /// Returns how many rings of vertices a faceted sphere has.

@@ -285,6 +285,9 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
       options.warnings.push_back("without effect in a window, which needs no -o: " + list);
     }
   }
+  if (!options.stats_path.empty() && options.outputs.empty() && !options.models.empty()) {
+    options.warnings.push_back("--stats has no effect without a picture");
+  }
   if (arguments.has("preview")) {
     const std::string& how = arguments.text("preview");
     if (!how.empty() && how != "throwntogether") {

@@ -104,11 +104,11 @@ void ModelExport::check(ModelFormat format) const {
   const auto fail = [&](const char* what) { throw Error(tree_.name, {}, what, ""); };
   const bool is_plane = design_.is_plane_figure;
   if (is_plane_format(format)) {
-    if (!is_plane) fail("Current top level object is not a 2D object.");
-    if (design_.flat_outlines.empty()) {
+    if (design_.is_tangle) {
       throw Error(tree_.name, {}, "the edges of the plane figure cross too often",
                   "cut it into parts");
     }
+    if (design_.flat_outlines.empty()) fail("Current top level object is not a 2D object.");
   } else {
     if (is_plane) fail("Current top level object is not a 3D object.");
     if (design_.scene.model.empty()) fail("Current top level object is empty.");

@@ -277,20 +277,19 @@ bool needs_layers(const Collector& collected, PictureKind picture) {
                      [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
 }
 
-/// The outlines of a final render of plane figures.
-std::vector<std::vector<csgcore::Vec3>> flat_outlines(const Collector& collected) {
+/// Sets the outlines of a final render of plane figures.
+void set_flat_outlines(const Collector& collected, ImportedDesign& design) {
   std::vector<Figure> figures;
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
     figures.insert(figures.end(), leaf.figures.begin(), leaf.figures.end());
   }
-  std::vector<std::vector<csgcore::Vec3>> result;
+  design.is_plane_figure = !figures.empty();
   const std::optional<SimplePolygons> outlines = united(figures);
-  if (!outlines) return result;
-  for (const Polygon& polygon : *outlines) {
-    std::vector<csgcore::Vec3>& outline = result.emplace_back();
+  design.is_tangle = !outlines;
+  for (const Polygon& polygon : outlines.value_or(SimplePolygons{})) {
+    std::vector<csgcore::Vec3>& outline = design.flat_outlines.emplace_back();
     for (const Vec2& point : polygon) outline.emplace_back(point, 0.0);
   }
-  return result;
 }
 
 /// A leaf that several trees name counts once for each.
@@ -315,10 +314,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   design.warnings = collected.problems.warnings(tree);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
-  design.is_plane_figure =
-      std::any_of(collected.plane_leaves.begin(), collected.plane_leaves.end(),
-                  [](const Collector::PlaneLeaf& leaf) { return !leaf.figures.empty(); });
-  design.flat_outlines = flat_outlines(collected);
+  set_flat_outlines(collected, design);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,
                  union_of(collected.boxes));

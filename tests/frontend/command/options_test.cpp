@@ -98,6 +98,8 @@ TEST(Options, Models) {
   EXPECT_EQ(options.models[1].format, ModelFormat::k3mf);
   EXPECT_EQ(options.models[2].format, ModelFormat::kSvg);
   EXPECT_EQ(options.outputs.size(), 1u);
+  EXPECT_THAT(parse_options({"-o", "a.stl", "--stats=s", "a"}).warnings,
+              testing::ElementsAre("--stats has no effect without a picture"));
   const Options text = parse_options({"-o", "a.stl", "--export-format=asciistl", "a"});
   EXPECT_EQ(text.models.at(0).format, ModelFormat::kAsciiStl);
   EXPECT_EQ(text.action, Action::kDraw);
