@@ -45,8 +45,9 @@ class BoundaryMaker {
     std::vector<bool> is_judged(pieces.size(), false);
     for (const CellTree::Alone& cell : cells_.alone()) {
       for (const uint32_t facet : cell.facets) {
-        if (pieces_.is_left_out(facet)) continue;
-        const uint32_t patch = pieces_.patches()[facet];
+        const uint32_t piece = pieces_.piece_of(facet);
+        if (piece == kNoPlace) continue;
+        const uint32_t patch = pieces_.patches()[piece];
         kept_[patch] = cell.kept;
         is_judged[patch] = true;
       }
@@ -56,7 +57,7 @@ class BoundaryMaker {
     std::vector<uint32_t> open;
     for (uint32_t i = 0; i < pieces.size(); ++i) {
       const uint32_t patch = pieces_.patches()[i];
-      if (is_judged[patch] || pieces_.is_left_out(i)) continue;
+      if (is_judged[patch]) continue;
       const double area = area_of(pieces[i]);
       if (largest[patch] == kNoPlace) open.push_back(patch);
       if (largest[patch] != kNoPlace && area <= areas[patch]) continue;
@@ -90,7 +91,7 @@ class BoundaryMaker {
     const std::vector<Piece>& pieces = pieces_.all();
     for (uint32_t i = 0; i < pieces.size(); ++i) {
       const KeptFace& kept = kept_[pieces_.patches()[i]];
-      if (kept.sign == 0 || pieces_.is_left_out(i)) continue;
+      if (kept.sign == 0) continue;
       const Piece& piece = pieces[i];
       // A facet turns as itself, a triangle of a sheet to the left in the drawing.
       const int turns =

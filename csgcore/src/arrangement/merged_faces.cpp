@@ -33,7 +33,11 @@ struct FaceCorner {
 class FaceMerger {
  public:
   FaceMerger(const Pieces& pieces, const std::vector<KeptPiece>& kept)
-      : pieces_(pieces), kept_(kept), faces_(kept.size()) {}
+      : pieces_(pieces),
+        kept_(kept),
+        faces_(kept.size()),
+        is_of_facet_(pieces.point_count(), false),
+        corner_at_(pieces.point_count(), kNoPlace) {}
 
   std::vector<FaceTriangle> run() {
     std::vector<FaceTriangle> result;
@@ -42,25 +46,24 @@ class FaceMerger {
         in_sheets_.push_back(i);
       } else {
         result.push_back(kept_[i].triangle);
-        for (const uint32_t point : kept_[i].triangle.points) corners_of_facets_.push_back(point);
+        for (const uint32_t point : kept_[i].triangle.points) is_of_facet_[point] = true;
       }
     }
     if (in_sheets_.empty()) return result;
-    tbb::parallel_sort(corners_of_facets_.begin(), corners_of_facets_.end());
     find_edges();
     find_corners();
     // The pieces and the edges of each face.
-    std::unordered_map<uint32_t, uint32_t> number_of;
+    std::vector<uint32_t> number_of(kept_.size(), kNoPlace);  // by a face's first piece
     std::vector<std::vector<uint32_t>> pieces;
     std::vector<std::vector<FaceEdge>> edges;
     const auto number = [&](uint32_t piece) {
-      const auto [place, is_new] =
-          number_of.emplace(faces_.find(piece), static_cast<uint32_t>(pieces.size()));
-      if (is_new) {
+      uint32_t& result_number = number_of[faces_.find(piece)];
+      if (result_number == kNoPlace) {
+        result_number = static_cast<uint32_t>(pieces.size());
         pieces.emplace_back();
         edges.emplace_back();
       }
-      return place->second;
+      return result_number;
     };
     for (const uint32_t piece : in_sheets_) pieces[number(piece)].push_back(piece);
     for (const FaceEdge& edge : edges_) edges[number(edge.piece)].push_back(edge);
@@ -116,18 +119,20 @@ class FaceMerger {
       if (i > 0 && edges_[i].ends() == edges_[i - 1].ends()) continue;
       const auto [a, b] = edges_[i].ends();
       for (const auto& [point, neighbor] : {std::pair(a, b), std::pair(b, a)}) {
-        FaceCorner& corner = corners_[point];
+        if (corner_at_[point] == kNoPlace) {
+          corner_at_[point] = static_cast<uint32_t>(corners_.size());
+          corners_.emplace_back();
+          // A facet is not triangulated anew: its corners stay.
+          if (is_of_facet_[point]) corners_.back().count = 2;
+        }
+        FaceCorner& corner = corners_[corner_at_[point]];
         if (corner.count < 2) corner.neighbors[corner.count] = neighbor;
         ++corner.count;
       }
     }
-    for (auto& [point, corner] : corners_) {
-      if (corner.count != 2) continue;
-      if (std::ranges::binary_search(corners_of_facets_, point)) corner.count = 3;
-    }
     // Points are left out where two edges run straight on.
     for (const FaceEdge& edge : edges_) {
-      FaceCorner& corner = corners_[edge.from];
+      FaceCorner& corner = corners_[corner_at_[edge.from]];
       if (corner.count != 2) continue;
       const int axis = pieces_.axis(piece(edge.piece));
       const bool is_straight = turn(pieces_.point(corner.neighbors[0]), pieces_.point(edge.from),
@@ -136,14 +141,14 @@ class FaceMerger {
     }
   }
 
-  bool is_left_out(uint32_t point) const { return corners_.at(point).count == 0; }
+  bool is_left_out(uint32_t point) const { return corners_[corner_at_[point]].count == 0; }
 
   /// Returns where the edge ends if points that are left out are passed.
   uint32_t end_of(const FaceEdge& edge) const {
     uint32_t from = edge.from;
     uint32_t to = edge.to;
     while (is_left_out(to)) {
-      const auto& neighbors = corners_.at(to).neighbors;
+      const auto& neighbors = corners_[corner_at_[to]].neighbors;
       const uint32_t next = neighbors[0] == from ? neighbors[1] : neighbors[0];
       from = std::exchange(to, next);
     }
@@ -244,11 +249,12 @@ class FaceMerger {
 
   const Pieces& pieces_;
   const std::vector<KeptPiece>& kept_;
-  DisjointSets faces_;                       // of kept pieces
-  std::vector<uint32_t> in_sheets_;          // kept pieces
-  std::vector<uint32_t> corners_of_facets_;  // points of other pieces
-  std::vector<FaceEdge> edges_;              // between faces, in the order of their ends
-  std::unordered_map<uint32_t, FaceCorner> corners_;
+  DisjointSets faces_;               // of kept pieces
+  std::vector<uint32_t> in_sheets_;  // kept pieces
+  std::vector<bool> is_of_facet_;    // by point: of other pieces
+  std::vector<uint32_t> corner_at_;  // by point: its place in corners_
+  std::vector<FaceCorner> corners_;
+  std::vector<FaceEdge> edges_;  // between faces, in the order of their ends
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ struct SideOfPiece {
 Pieces::Pieces(const Facets& facets, const CellTree& cells, const Sheets& sheets)
     : facets_(facets), sheets_(sheets), corner_count_(facets.points.size()) {
   number_points();
-  add_pieces();
+  add_pieces(cells);
   find_patches(cells);
 }
 
@@ -87,9 +87,17 @@ void Pieces::number_points() {
   }
 }
 
-void Pieces::add_pieces() {
-  pieces_.reserve(facets_.facets.size());
-  for (uint32_t i = 0; i < facets_.facets.size(); ++i) {
+void Pieces::add_pieces(const CellTree& cells) {
+  constexpr uint32_t kMatters = 0;  // until the pieces are numbered
+  piece_of_.assign(facets_.facets.size(), kNoPlace);
+  for (const CellTree::Alone& cell : cells.alone()) {
+    for (const uint32_t facet : cell.facets) piece_of_[facet] = kMatters;
+  }
+  for (const uint32_t facet : cells.others()) piece_of_[facet] = kMatters;
+  for (uint32_t i = 0; i < piece_of_.size(); ++i) {
+    if (sheets_.is_divided[i]) piece_of_[i] = kNoPlace;
+    if (piece_of_[i] == kNoPlace) continue;
+    piece_of_[i] = static_cast<uint32_t>(pieces_.size());
     pieces_.push_back({facets_.facets[i].corners, kNoPlace, i, 0});
   }
   for (uint32_t i = 0; i < sheets_.sheets.size(); ++i) {
@@ -108,21 +116,23 @@ void Pieces::find_patches(const CellTree& cells) {
   DisjointSets patches(pieces_.size());
   // Facets that are alone in a cell have the same solids around them. Others are compared with
   // their neighbours.
-  is_alone_.assign(facets_.facets.size(), false);
+  std::vector<bool> is_compared(pieces_.size(), true);
   for (const CellTree::Alone& cell : cells.alone()) {
     uint32_t first = kNoPlace;
     for (const uint32_t facet : cell.facets) {
-      is_alone_[facet] = true;
-      if (sheets_.is_divided[facet]) continue;
-      if (first == kNoPlace) first = facet;
-      patches.join(first, facet);
+      const uint32_t piece = piece_of_[facet];
+      if (piece == kNoPlace) continue;
+      is_compared[piece] = false;
+      if (first == kNoPlace) first = piece;
+      patches.join(first, piece);
     }
   }
-  is_other_.assign(facets_.facets.size(), false);
-  for (const uint32_t facet : cells.others()) is_other_[facet] = true;
+  for (const uint32_t facet : cells.others()) {
+    if (piece_of_[facet] != kNoPlace) is_compared[piece_of_[facet]] = true;
+  }
   std::vector<SideOfPiece> sides;
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
-    if (is_left_out(i) || (i < facets_.facets.size() && !is_other_[i])) continue;
+    if (!is_compared[i]) continue;
     const auto& points = pieces_[i].points;
     for (size_t j = 0; j < 3; ++j) {
       // A line that was drawn may have more points in the other surface's sheet.

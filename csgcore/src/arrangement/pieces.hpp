@@ -26,11 +26,8 @@ class Pieces {
 
   /// Facets first, then the triangles of sheets.
   const std::vector<Piece>& all() const { return pieces_; }
-  /// Facets that are part of a sheet, or matter nowhere, are left out.
-  bool is_left_out(uint32_t piece) const {
-    return piece < facets_.facets.size() &&
-           (sheets_.is_divided[piece] || (!is_alone_[piece] && !is_other_[piece]));
-  }
+  /// Returns the facet's place among them; kNoPlace: it is part of a sheet, or matters nowhere.
+  uint32_t piece_of(uint32_t facet) const { return piece_of_[facet]; }
   /// Returns the facets that lie there.
   std::span<const uint32_t> facets(const Piece& piece) const {
     return piece.sheet == kNoPlace ? std::span(&piece.cover, 1)
@@ -51,7 +48,7 @@ class Pieces {
 
  private:
   void number_points();
-  void add_pieces();
+  void add_pieces(const CellTree& cells);
   void find_patches(const CellTree& cells);
 
   const Facets& facets_;
@@ -62,8 +59,7 @@ class Pieces {
   std::vector<bool> is_in_sheet_;               // by point
   std::vector<Piece> pieces_;                   // facets first
   std::vector<uint32_t> patches_;
-  std::vector<bool> is_alone_;  // by facet: in some cell
-  std::vector<bool> is_other_;  // by facet: in some other cell where it matters
+  std::vector<uint32_t> piece_of_;  // by facet
 };
 
 }  // namespace csgcore
