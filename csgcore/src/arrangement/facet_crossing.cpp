@@ -137,7 +137,7 @@ bool is_beyond_an_edge(const PlacedFacet& facet, const PlacedFacet& other) {
 FacetCrossing coplanar_crossing(const PlacedFacet& t, const PlacedFacet& s) {
   FacetCrossing result;
   if (!is_beyond_an_edge(t, s) && !is_beyond_an_edge(s, t)) {
-    result.kind = FacetCrossing::Kind::kCoplanar;
+    result.kind = FacetCrossing::Kind::kOverlap;
     return result;
   }
   for (const auto& [facet, other] : {std::pair(&t, &s), std::pair(&s, &t)}) {

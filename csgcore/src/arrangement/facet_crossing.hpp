@@ -22,7 +22,7 @@ struct FacetCrossing {
   enum class Kind : uint8_t {
     kNone,
     kLine,     // they meet in the segment from `start` to `end`, which may be one point
-    kCoplanar  // they lie in one plane, and have an area in common
+    kOverlap,  // they lie in one plane, and have an area in common
   };
   Kind kind = Kind::kNone;
   PointName start;

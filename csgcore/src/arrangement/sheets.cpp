@@ -110,7 +110,7 @@ class SheetMaker {
                   [&](uint32_t name) { return std::ranges::find(s.names, name) != s.names.end(); })
             : 0;
     const FacetCrossing crossing = crossing_of(t, s);
-    if (crossing.kind == FacetCrossing::Kind::kCoplanar) {
+    if (crossing.kind == FacetCrossing::Kind::kOverlap) {
       found.coplanar.emplace_back(t.number, s.number);
       return;
     }
