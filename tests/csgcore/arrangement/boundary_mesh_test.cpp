@@ -260,6 +260,14 @@ TEST(BoundaryMesh, AGridOfFlushCubesIsABoxOfTheirFaces) {
   EXPECT_EQ(triangles_of(mesh, 0), 6u);
 }
 
+TEST(BoundaryMesh, KeepsPartsThatAreApart) {
+  std::vector<MeshParts> cubes;
+  for (int i = 0; i < 1000; ++i) {
+    cubes.push_back(cube(2.0 * Vec3(i % 10, i / 10 % 10, i / 100), 1));
+  }
+  expect_mesh(sound_mesh(Op::kUnion, cubes), {12'000, 8'000, 1'000, 6'000});
+}
+
 TEST(BoundaryMesh, SubtractsAllFurtherOperands) {
   const BoundaryMesh mesh =
       sound_mesh(Op::kDifference, {box({0, 0, 0}, {6, 2, 2}), cube({1, 1, 1}, 1),
