@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 
+#include "csgcore/boundary_mesh.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "faceted_scene.hpp"
 #include "nef_judge.hpp"
 #include "planted_error.hpp"
 #include "ray_judge.hpp"
 #include "samples.hpp"
+#include "solids/triangles_of.hpp"
 #include "volume.hpp"
 
 namespace validation {
@@ -24,11 +28,12 @@ using csgcore::View;
 
 constexpr const char* kSmooth = "as drawn, against rays in exact arithmetic";
 constexpr const char* kFaceted = "in facets, against CGAL Nef polyhedra";
+constexpr const char* kMeshed = "the mesh in facets, against CGAL Nef polyhedra";
 constexpr const char* kSagitta = "as drawn, against CGAL within the facets' sagitta";
 
-/// Shares of the time limit at which the smooth scene's comparison and CGAL's building have to be
-/// done. The rest is for comparisons with what CGAL has built.
-constexpr double kSmoothUntil = 0.3, kBuiltUntil = 0.85;
+/// Shares of the time limit at which the smooth scene's comparison, CGAL's building and the
+/// comparison of what is drawn with that have to be done. The rest is for the mesh.
+constexpr double kSmoothUntil = 0.3, kBuiltUntil = 0.8, kFacetsUntil = 0.95;
 
 /// Rays for the volume per ray of a comparison: a ray adds little to the estimate, and costs
 /// little.
@@ -62,6 +67,33 @@ class Model {
   csgcore::Solid solid_;
   csgcore::Subdivision subdivision_;
 };
+
+/// Returns the boundary of a scene's solid whose primitives are polyhedra or meshes.
+csgcore::BoundaryMesh mesh_of(const Scene& scene) {
+  std::vector<csgcore::TriangleSet> operands;
+  for (const csgcore::Primitive& primitive : scene.primitives) {
+    operands.push_back(frontend::triangles_of(primitive));
+  }
+  return csgcore::boundary_mesh(operands, scene.model);
+}
+
+double area_of(const csgcore::TriangleSet& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sum += glm::length(
+        glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+  }
+  return sum / 2;
+}
+
+double volume_of(const csgcore::TriangleSet& mesh, const Vec3& middle) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sum += glm::dot(mesh.vertices[a] - middle,
+                    glm::cross(mesh.vertices[b] - middle, mesh.vertices[c] - middle));
+  }
+  return sum / 6;
+}
 
 /// The pictures of a scene by one renderer.
 struct Pictures {
@@ -118,6 +150,7 @@ class Validation {
     if (const std::unique_ptr<const NefTruth> truth = build_nef()) {
       const Model facets(with_error(facets_));
       compare_facets(*truth, facets);
+      compare_mesh(*truth);
       compare_within_sagitta(*truth);
     }
     return std::move(result_);
@@ -260,13 +293,13 @@ class Validation {
     const auto judge_by = [&](const Tolerance& tolerance) -> MakeRayJudge {
       return [&] { return make_nef_judge(truth, tolerance); };
     };
-    const Clock::time_point end = after(1);
+    const Clock::time_point end = after(kFacetsUntil);
     compare_volume(truth, facets, next_deadline(end, 8));
-    compare_points(truth, facets, "points", next_deadline(end, 7),
+    compare_points(kFaceted, truth, facets, "points", next_deadline(end, 7),
                    [&](uint64_t i) { return points.in_box(i); });
-    compare_points(truth, facets, "points near surfaces", next_deadline(end, 6),
+    compare_points(kFaceted, truth, facets, "points near surfaces", next_deadline(end, 6),
                    [&](uint64_t i) { return points.near_surface(i); });
-    compare_points(truth, facets, "points near edges", next_deadline(end, 5),
+    compare_points(kFaceted, truth, facets, "points near edges", next_deadline(end, 5),
                    [&](uint64_t i) { return points.near_edge(i); });
     compare_rays(kFaceted, facets, judge_by(kDoubleTolerance), next_deadline(end, 4));
     compare_pictures(kFaceted, "pictures", pictures_by_cpu(facets, views_),
@@ -276,9 +309,9 @@ class Validation {
   }
 
   template <typename PointOf>
-  void compare_points(const NefTruth& truth, const Model& facets, const char* name,
-                      Clock::time_point deadline, const PointOf& point_of) {
-    add(run_check(kFaceted, name, settings_.points, deadline, progress_, [&]() -> Judge {
+  void compare_points(const char* group, const NefTruth& truth, const Model& facets,
+                      const char* name, Clock::time_point deadline, const PointOf& point_of) {
+    add(run_check(group, name, settings_.points, deadline, progress_, [&]() -> Judge {
       return [&](uint64_t i) {
         const Vec3 point = point_of(i);
         Verdict verdict = judge_point(truth, point, facets.contains(point));
@@ -286,6 +319,50 @@ class Validation {
         return verdict;
       };
     }));
+  }
+
+  /// The boundary's mesh is a judge that knows nothing of rays.
+  void compare_mesh(const NefTruth& truth) {
+    progress_("the mesh", -1);
+    const csgcore::BoundaryMesh mesh = mesh_of(with_error(facets_));
+    const double exact = truth.solid().volume().get_d();
+    const double volume = volume_of(mesh, (box_.min + box_.max) / 2.0);
+    Verdict verdict;
+    verdict.error = std::abs(volume - exact) / (exact > 0 ? exact : 1);
+    // Each face may be displaced by rounding, along its normal.
+    const double bound = truth.displacement() * area_of(mesh);
+    if (std::abs(volume - exact) > bound || csgcore::open_edges(mesh) > 0) {
+      verdict.outcome = Outcome::kDisagreed;
+      verdict.details = {{"differs_in", "volume"},
+                         {"seen", volume},
+                         {"open_edges", csgcore::open_edges(mesh)},
+                         {"expected", exact}};
+    }
+    add_single(kMeshed, "volume", std::move(verdict));
+    if (mesh.triangles.empty()) return;
+    Scene scene;
+    scene.primitives.push_back(csgcore::make_mesh(
+        std::make_shared<const csgcore::TriangleMesh>(mesh.vertices, mesh.triangles)));
+    csgcore::CsgTreeBuilder builder;
+    builder.primitive(0);
+    scene.model = builder.finish();
+    const Model model(scene);
+    const PointSampler points(box_, truth.solid().mesh(), settings_.seed);
+    compare_points(kMeshed, truth, model, "points", next_deadline(after(1), 3),
+                   [&](uint64_t i) { return points.in_box(i); });
+    compare_points(kMeshed, truth, model, "points near surfaces", next_deadline(after(1), 2),
+                   [&](uint64_t i) { return points.near_surface(i); });
+    compare_points(kMeshed, truth, model, "points near edges", next_deadline(after(1), 1),
+                   [&](uint64_t i) { return points.near_edge(i); });
+  }
+
+  void add_single(const char* group, const char* name, Verdict verdict) {
+    CheckResult check;
+    check.group = group;
+    check.name = name;
+    check.planned = 1;
+    check.add(std::move(verdict));
+    add(std::move(check));
   }
 
   void compare_volume(const NefTruth& truth, const Model& facets, Clock::time_point deadline) {
@@ -302,12 +379,7 @@ class Validation {
                          {"bound", estimate.bound},
                          {"expected", exact}};
     }
-    CheckResult check;
-    check.group = kFaceted;
-    check.name = "volume";
-    check.planned = 1;
-    check.add(std::move(verdict));
-    add(std::move(check));
+    add_single(kFaceted, "volume", std::move(verdict));
     char note[200];
     std::snprintf(note, sizeof note, "volume in facets: %.9g by CGAL, %.9g ± %.2g by %llu rays",
                   exact, estimate.volume, estimate.bound,

@@ -375,13 +375,17 @@ KeptFace CellTree::kept(const std::array<const ArrangedPoint*, 3>& triangle, int
     return {cell->alone->sign * facing(*place) * facing(over.front()), cell->alone->operand};
   }
   if (cell->tokens.empty()) return {};
-  std::vector<Cell::Winding> behind = cell->windings;
+  std::vector<Cell::Winding> near = cell->windings;
   WayPoint from(triangle, cell->corner);
   const auto winding_of = [](std::vector<Cell::Winding>& windings, uint32_t operand) {
     const auto place = std::ranges::lower_bound(windings, operand, {}, &Cell::Winding::operand);
     return place != windings.end() && place->operand == operand ? &*place : nullptr;
   };
+  bool comes_from_behind = true;
   for (const int along : {u_axis(axis), v_axis(axis), axis}) {
+    if (along == axis) {
+      comes_from_behind = from.side(facets_.plane(over.front())) == -facing(over.front());
+    }
     WayPoint to = from;
     to.move(along);
     for (const uint32_t facet : cell->facets) {
@@ -392,17 +396,20 @@ KeptFace CellTree::kept(const std::array<const ArrangedPoint*, 3>& triangle, int
       };
       if (!is_in_column(facets_.corners(facet), turn_of_column)) continue;
       const GridPlane plane = facets_.plane(facet);
-      winding_of(behind, facets_.facets[facet].operand)->number +=
+      winding_of(near, facets_.facets[facet].operand)->number +=
           change(from.side(plane), to.side(plane));
     }
     from = to;
   }
-  // The way ends below the triangle, seen along the axis.
-  std::vector<Cell::Winding> ahead = behind;
+  // The way ends where the triangle begins. Behind it, seen along the axis, is what its facets
+  // leave by their fronts.
+  std::vector<Cell::Winding> far = near;
   for (const uint32_t facet : over) {
-    Cell::Winding* const winding = winding_of(ahead, facets_.facets[facet].operand);
-    if (winding != nullptr) winding->number -= facing(facet);
+    Cell::Winding* const winding = winding_of(far, facets_.facets[facet].operand);
+    if (winding != nullptr) winding->number -= (comes_from_behind ? 1 : -1) * facing(facet);
   }
+  std::vector<Cell::Winding>& behind = comes_from_behind ? near : far;
+  std::vector<Cell::Winding>& ahead = comes_from_behind ? far : near;
   const auto is_in = [&](std::vector<Cell::Winding>& windings) {
     return [&](uint32_t operand) { return winding_of(windings, operand)->number != 0; };
   };
