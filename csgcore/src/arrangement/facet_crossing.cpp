@@ -115,6 +115,14 @@ int order(const PlacedFacet& t, const End& p, const PlacedFacet& s, const End& q
   return order_of_corners(t, s, a, c);
 }
 
+FacetCrossing::Edge edge_on_plane(const PlacedFacet& facet, const Sides& sides) {
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t next = (i + 1) % 3;
+    if (sides[i] == 0 && sides[next] == 0) return {facet.names[i], facet.names[next]};
+  }
+  return {kNoPlace, kNoPlace};
+}
+
 /// Returns whether the point lies in the facet's plane within the facet or on its boundary.
 bool covers(const PlacedFacet& facet, const GridPoint& point) {
   for (size_t i = 0; i < 3; ++i) {
@@ -173,6 +181,8 @@ FacetCrossing crossing_of(const PlacedFacet& t, const PlacedFacet& s) {
   result.kind = FacetCrossing::Kind::kLine;
   result.start = starts_with_s ? end_name(s, on_s.start, t) : end_name(t, on_t.start, s);
   result.end = ends_with_s ? end_name(s, on_s.end, t) : end_name(t, on_t.end, s);
+  result.edge_of_first = edge_on_plane(t, t_sides);
+  result.edge_of_second = edge_on_plane(s, s_sides);
   return result;
 }
 

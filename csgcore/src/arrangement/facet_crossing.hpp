@@ -27,6 +27,11 @@ struct FacetCrossing {
   Kind kind = Kind::kNone;
   PointName start;
   PointName end;
+  /// An edge of the first facet that lies in the plane of the second, and the other way around; by
+  /// its corners, or kNoPlace.
+  using Edge = std::array<uint32_t, 2>;
+  Edge edge_of_first{kNoPlace, kNoPlace};
+  Edge edge_of_second{kNoPlace, kNoPlace};
   /// Facets of one plane that have no area in common: the corners of one that lie on an edge of
   /// the other.
   std::vector<Facets::Touch> touches{};

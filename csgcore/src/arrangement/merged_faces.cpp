@@ -184,7 +184,7 @@ class FaceMerger {
         most[i] = points.size() == 1 ? high : std::max(most[i], high);
       }
     }
-    PlanarSubdivision drawing(axis, [](uint32_t, uint32_t) { return ArrangedPoint(); });
+    PlanarSubdivision drawing(axis, [](uint32_t, uint32_t, auto&) { return ArrangedPoint(); });
     const auto u = static_cast<size_t>(u_axis(axis));
     const auto v = static_cast<size_t>(v_axis(axis));
     GridPoint right = least;

@@ -378,8 +378,10 @@ void PlanarSubdivision::draw_step(const Segment& segment) {
     const uint32_t right = triangle.points[at.edge];
     const uint32_t left = triangle.points[(at.edge + 1) % 3];
     if (triangle.lines[at.edge] != kNoPlace) {
-      const ArrangedPoint point = meet_(line, links_[triangle.lines[at.edge]].line);
+      std::vector<PointName> names;
+      const ArrangedPoint point = meet_(line, links_[triangle.lines[at.edge]].line, names);
       const uint32_t number = add_point(point);
+      for (const PointName& name : names) aliases_.push_back({number, name});
       divide_edge(at, number);
       make_delaunay(number);
       open_.push_back({number, to, line});

@@ -45,8 +45,9 @@ class PlanarSubdivision {
     uint32_t point;
     PointName name;
   };
-  /// Returns the point in which two lines cross.
-  using Meet = std::function<ArrangedPoint(uint32_t line, uint32_t other)>;
+  /// Returns the point in which two lines cross, and other names that it has.
+  using Meet =
+      std::function<ArrangedPoint(uint32_t line, uint32_t other, std::vector<PointName>& aliases)>;
 
   /// The drawing is along the axis. The first triangle's points lie around all that is inserted,
   /// in either direction.

@@ -21,6 +21,7 @@ struct Trace {
   uint32_t other;
   PointName start;
   PointName end;
+  FacetCrossing::Edge edge;  // of the other facet, if the trace runs along one
   auto operator<=>(const Trace&) const = default;
 };
 
@@ -30,7 +31,7 @@ struct Found {
 };
 
 Trace touch(uint32_t facet, uint32_t corner) {
-  return {facet, kNoPlace, corner_name(corner), corner_name(corner)};
+  return {facet, kNoPlace, corner_name(corner), corner_name(corner), {kNoPlace, kNoPlace}};
 }
 
 class SheetMaker {
@@ -123,8 +124,9 @@ class SheetMaker {
     }
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
     if (common == 1 && crossing.start == crossing.end) return;
-    found.traces.push_back({t.number, s.number, crossing.start, crossing.end});
-    found.traces.push_back({s.number, t.number, crossing.start, crossing.end});
+    const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
+    found.traces.push_back({t.number, s.number, start, end, edge_of_s});
+    found.traces.push_back({s.number, t.number, start, end, edge_of_t});
   }
 
   std::vector<std::pair<size_t, size_t>> ranges_of_planes() const {
@@ -142,10 +144,12 @@ class SheetMaker {
   }
 
   /// A line in the drawing of a sheet: an edge of one of its facets, or where another plane meets
-  /// it.
+  /// it, which may be along an edge of a facet of that plane.
   struct Line {
-    uint32_t facet = kNoPlace;       // of the other plane
-    std::array<uint32_t, 2> edge{};  // if there is none
+    uint32_t facet;            // of the other plane, or kNoPlace
+    FacetCrossing::Edge edge;  // or kNoPlace
+
+    bool is_edge() const { return edge[0] != kNoPlace; }
   };
 
   ArrangedPoint arranged(const PointName& name, int axis) const {
@@ -165,13 +169,21 @@ class SheetMaker {
     return rational_point(name, meet(facets_.plane(a), facets_.plane(b), facets_.plane(c)));
   }
 
-  ArrangedPoint meet_of_lines(const Line& p, const Line& q, uint32_t plane, int axis) const {
-    if (p.facet == kNoPlace && q.facet == kNoPlace) {
+  /// Returns where the lines cross. What other sheets may call the point is added to `aliases`:
+  /// what is an edge in one sheet may be the inside of a facet in another.
+  ArrangedPoint meet_of_lines(const Line& p, const Line& q, uint32_t plane, int axis,
+                              std::vector<PointName>& aliases) const {
+    if (!p.is_edge() && !q.is_edge()) {
+      return arranged(name_of_planes(plane, p.facet, q.facet), axis);
+    }
+    for (const auto& [edge, other] : {std::pair(&p, &q), std::pair(&q, &p)}) {
+      if (!edge->is_edge() || other->facet == kNoPlace) continue;
+      aliases.push_back(name_of(edge->edge[0], edge->edge[1], other->facet));
+    }
+    if (p.is_edge() && q.is_edge()) {
       return arranged(name_of_edges(p.edge[0], p.edge[1], q.edge[0], q.edge[1]), axis);
     }
-    if (p.facet == kNoPlace) return arranged(name_of(p.edge[0], p.edge[1], q.facet), axis);
-    if (q.facet == kNoPlace) return arranged(name_of(q.edge[0], q.edge[1], p.facet), axis);
-    return arranged(name_of_planes(plane, p.facet, q.facet), axis);
+    return arranged(aliases.front(), axis);
   }
 
   Sheet sheet(size_t begin, size_t end) const {
@@ -184,8 +196,8 @@ class SheetMaker {
     const uint32_t plane = plane_of(members.front());
     const int axis = facets_.plane(plane).axis();
     std::vector<Line> lines;
-    PlanarSubdivision drawing(axis, [&](uint32_t p, uint32_t q) {
-      return meet_of_lines(lines[p], lines[q], plane, axis);
+    PlanarSubdivision drawing(axis, [&](uint32_t p, uint32_t q, std::vector<PointName>& aliases) {
+      return meet_of_lines(lines[p], lines[q], plane, axis, aliases);
     });
     start(drawing, members);
     // The edges of the facets are their first lines.
@@ -210,7 +222,7 @@ class SheetMaker {
     }
     for (size_t i = begin; i < end; ++i) {
       if (ends[i - begin].first == ends[i - begin].second) continue;
-      lines.push_back({plane_of(traces_[i].other), {}});
+      lines.push_back({plane_of(traces_[i].other), traces_[i].edge});
       drawing.draw(ends[i - begin].first, ends[i - begin].second,
                    static_cast<uint32_t>(lines.size() - 1));
     }
