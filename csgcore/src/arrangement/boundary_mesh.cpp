@@ -18,8 +18,9 @@ namespace {
 
 class BoundaryMaker {
  public:
-  BoundaryMaker(const Facets& facets, const CellTree& cells, const Pieces& pieces)
-      : facets_(facets), cells_(cells), pieces_(pieces) {}
+  BoundaryMaker(const Facets& facets, const std::vector<bool>& may_cross_itself,
+                const CellTree& cells, const Pieces& pieces)
+      : facets_(facets), may_cross_itself_(may_cross_itself), cells_(cells), pieces_(pieces) {}
 
   BoundaryMesh run() {
     judge_patches();
@@ -106,7 +107,7 @@ class BoundaryMaker {
   BoundaryMesh mesh() const {
     BoundaryMesh result;
     std::vector<uint32_t> number_of(pieces_.point_count(), kNoPlace);
-    std::vector<bool> may_touch;  // by vertex: it is one of a sheet
+    std::vector<bool> may_touch;  // by vertex
     const auto number = [&](uint32_t point) {
       if (number_of[point] == kNoPlace) {
         number_of[point] = static_cast<uint32_t>(result.vertices.size());
@@ -118,12 +119,15 @@ class BoundaryMaker {
     for (const auto& [points, operand] : merged_faces(pieces_, kept_pieces())) {
       result.triangles.push_back({number(points[0]), number(points[1]), number(points[2])});
       result.operands.push_back(operand);
+      if (!may_cross_itself_[operand]) continue;
+      for (const uint32_t vertex : result.triangles.back()) may_touch[vertex] = true;
     }
     part_touching_faces(result, may_touch);
     return result;
   }
 
   const Facets& facets_;
+  const std::vector<bool>& may_cross_itself_;
   const CellTree& cells_;
   const Pieces& pieces_;
   std::vector<KeptFace> kept_;  // by a patch's first piece
@@ -138,7 +142,7 @@ BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree&
   const CellTree cells(facets, tree, may_cross_itself);
   const Sheets sheets = sheets_of(facets, cells.pairs());
   const Pieces pieces(facets, cells, sheets);
-  return BoundaryMaker(facets, cells, pieces).run();
+  return BoundaryMaker(facets, may_cross_itself, cells, pieces).run();
 }
 
 }  // namespace csgcore

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -44,17 +45,19 @@ void set_grid(Facets& facets, std::span<const TriangleSet> operands) {
   }
   if (box.empty()) return;
   const auto largest = [](const Vec3& x) { return std::max({x.x, x.y, x.z}); };
-  const double half = largest(box.max - box.min) / 2;
+  const double half = largest(box.max / 2.0 - box.min / 2.0);
   double reach = largest(glm::max(glm::abs(box.min), glm::abs(box.max)));
   // Far away from the origin digits would be lost. Near it, numbers of few binary digits stay what
   // they are if it is in the grid.
   constexpr double kFar = 4;
   if (reach > kFar * half) {
-    facets.middle = (box.min + box.max) / 2.0;
+    facets.middle = box.min / 2.0 + box.max / 2.0;
     reach = largest(glm::max(facets.middle - box.min, box.max - facets.middle));
   }
   if (!(reach > 0)) return;
-  facets.scale = std::ldexp(1.0, kGridBits - 1 - std::ilogb(reach));
+  // Beyond double's largest power of two nothing is told apart.
+  constexpr int kLargest = std::numeric_limits<double>::max_exponent - 1;
+  facets.scale = std::ldexp(1.0, std::min(kGridBits - 1 - std::ilogb(reach), kLargest));
 }
 
 bool are_on_line(const GridPoint& a, const GridPoint& b, const GridPoint& c) {

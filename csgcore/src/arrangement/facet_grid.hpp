@@ -4,6 +4,8 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -42,7 +44,11 @@ struct Facets {
     const auto [a, b, c] = corners(facet);
     return plane_through(a, b, c);
   }
-  Vec3 to_world(const Vec3& grid) const { return grid / scale + middle; }
+  /// The largest coordinates may have been rounded up beyond double's range.
+  Vec3 to_world(const Vec3& grid) const {
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    return glm::clamp(grid / scale + middle, -kLargest, kLargest);
+  }
 };
 
 Facets facets_on_grid(std::span<const TriangleSet> operands);

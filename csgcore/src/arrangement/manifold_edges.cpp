@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "arrangement/disjoint_sets.hpp"
 #include "arrangement/facet_grid.hpp"
@@ -60,6 +61,7 @@ class Parting {
       begin = end;
     }
     copy_vertices(fans);
+    divide_edges();
   }
 
  private:
@@ -78,7 +80,7 @@ class Parting {
   /// Joins triangles around one edge that bound the same part of the solid. Around the edge from
   /// low to high, counterclockwise, the solid begins at a triangle that passes it from high to low,
   /// and ends at one that passes it from low to high.
-  void join_around(std::span<const HalfEdge> edges, DisjointSets& fans) const {
+  void join_around(std::span<const HalfEdge> edges, DisjointSets& fans) {
     const Vec3 low = mesh_.vertices[edges.front().low];
     const Vec3 along = glm::normalize(mesh_.vertices[edges.front().high] - low);
     const auto across = [&](const HalfEdge& edge) {
@@ -104,7 +106,9 @@ class Parting {
     for (size_t i = 0; i < turned.size(); ++i) {
       const HalfEdge& begin = turned[i].edge;
       const HalfEdge& end = turned[(i + 1) % turned.size()].edge;
-      if (!is_rising(begin) && is_rising(end)) join(fans, begin, end);
+      if (is_rising(begin) || !is_rising(end)) continue;
+      join(fans, begin, end);
+      crowded_.push_back({begin, end});
     }
   }
 
@@ -127,9 +131,45 @@ class Parting {
     }
   }
 
+  /// Edges that still have four triangles get a vertex for each two beyond the first.
+  void divide_edges() {
+    std::set<std::array<uint32_t, 2>> known;
+    for (size_t i = 0; i < crowded_.size(); ++i) {
+      const HalfEdge falling = crowded_[i][0];
+      const HalfEdge rising = crowded_[i][1];
+      const std::array<uint32_t, 2> ends{vertex(rising.triangle, rising.corner),
+                                         vertex(rising.triangle, rising.corner + 1)};
+      if (known.insert(ends).second) continue;
+      const auto middle = static_cast<uint32_t>(mesh_.vertices.size());
+      mesh_.vertices.push_back((mesh_.vertices[ends[0]] + mesh_.vertices[ends[1]]) / 2.0);
+      divide(rising, middle, i + 1);
+      divide(falling, middle, i + 1);
+    }
+  }
+
+  /// Makes two triangles of one. Edges from `next` on that are in the second half move there.
+  void divide(const HalfEdge& edge, uint32_t middle, size_t next) {
+    auto& triangle = mesh_.triangles[place_of_[edge.triangle]];
+    const size_t from = edge.corner;
+    const size_t to = (from + 1) % 3;
+    auto half = triangle;
+    half[from] = middle;
+    triangle[to] = middle;
+    const auto number = static_cast<uint32_t>(place_of_.size());
+    for (size_t i = next; i < crowded_.size(); ++i) {
+      for (HalfEdge& other : crowded_[i]) {
+        if (other.triangle == edge.triangle && other.corner == to) other.triangle = number;
+      }
+    }
+    place_of_.push_back(static_cast<uint32_t>(mesh_.triangles.size()));
+    mesh_.operands.push_back(uint32_t{mesh_.operands[place_of_[edge.triangle]]});
+    mesh_.triangles.push_back(half);
+  }
+
   BoundaryMesh& mesh_;
   const std::vector<bool>& may_touch_;
-  std::vector<uint32_t> place_of_;  // triangles of the mesh that have such a vertex
+  std::vector<uint32_t> place_of_;                // triangles of the mesh that have such a vertex
+  std::vector<std::array<HalfEdge, 2>> crowded_;  // of edges with more than two triangles
 };
 
 }  // namespace

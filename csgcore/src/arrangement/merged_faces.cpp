@@ -42,14 +42,14 @@ class FaceMerger {
   std::vector<FaceTriangle> run() {
     std::vector<FaceTriangle> result;
     for (uint32_t i = 0; i < kept_.size(); ++i) {
-      if (is_in_sheet(i)) {
-        in_sheets_.push_back(i);
+      if (is_merged(i)) {
+        merged_.push_back(i);
       } else {
         result.push_back(kept_[i].triangle);
         for (const uint32_t point : kept_[i].triangle.points) is_of_facet_[point] = true;
       }
     }
-    if (in_sheets_.empty()) return result;
+    if (merged_.empty()) return result;
     find_edges();
     find_corners();
     // The pieces and the edges of each face.
@@ -65,7 +65,7 @@ class FaceMerger {
       }
       return result_number;
     };
-    for (const uint32_t piece : in_sheets_) pieces[number(piece)].push_back(piece);
+    for (const uint32_t piece : merged_) pieces[number(piece)].push_back(piece);
     for (const FaceEdge& edge : edges_) edges[number(edge.piece)].push_back(edge);
     std::vector<std::vector<FaceTriangle>> triangles(pieces.size());
     const std::stop_token* const stop = stop_of_work;
@@ -82,17 +82,18 @@ class FaceMerger {
 
  private:
   const Piece& piece(uint32_t i) const { return pieces_.all()[kept_[i].piece]; }
-  bool is_in_sheet(uint32_t i) const { return piece(i).sheet != kNoPlace; }
+  bool is_merged(uint32_t i) const { return pieces_.is_compared(kept_[i].piece); }
 
   bool are_one_face(uint32_t a, uint32_t b) const {
     if (kept_[a].triangle.operand != kept_[b].triangle.operand) return false;
-    return piece(a).sheet == piece(b).sheet || pieces_.are_in_one_plane(piece(a), piece(b));
+    const bool is_one_sheet = piece(a).sheet == piece(b).sheet && piece(a).sheet != kNoPlace;
+    return is_one_sheet || pieces_.are_in_one_plane(piece(a), piece(b));
   }
 
   /// Joins pieces to faces, and keeps the edges between faces.
   void find_edges() {
     std::vector<FaceEdge> all;
-    for (const uint32_t i : in_sheets_) {
+    for (const uint32_t i : merged_) {
       const auto& points = kept_[i].triangle.points;
       for (size_t j = 0; j < 3; ++j) all.push_back({points[j], points[(j + 1) % 3], i});
     }
@@ -175,13 +176,16 @@ class FaceMerger {
     for (const FaceEdge& edge : edges) {
       if (is_left_out(edge.from)) continue;
       outline.emplace_back(edge.from, end_of(edge));
-      const auto& point = points.emplace(edge.from, pieces_.point(edge.from)).first->second;
-      for (size_t i = 0; i < 3; ++i) {
-        const double x = point.position[static_cast<int>(i)];
-        const auto low = static_cast<int64_t>(std::floor(x)) - 1;
-        const auto high = static_cast<int64_t>(std::ceil(x)) + 1;
-        least[i] = points.size() == 1 ? low : std::min(least[i], low);
-        most[i] = points.size() == 1 ? high : std::max(most[i], high);
+      // Of an open surface an end may be no start.
+      for (const uint32_t end : {outline.back().first, outline.back().second}) {
+        const auto& point = points.emplace(end, pieces_.point(end)).first->second;
+        for (size_t i = 0; i < 3; ++i) {
+          const double x = point.position[static_cast<int>(i)];
+          const auto low = static_cast<int64_t>(std::floor(x)) - 1;
+          const auto high = static_cast<int64_t>(std::ceil(x)) + 1;
+          least[i] = points.size() == 1 ? low : std::min(least[i], low);
+          most[i] = points.size() == 1 ? high : std::max(most[i], high);
+        }
       }
     }
     PlanarSubdivision drawing(axis, [](uint32_t, uint32_t, auto&) { return ArrangedPoint(); });
@@ -194,12 +198,15 @@ class FaceMerger {
     const PointName none = corner_name(kNoPlace);
     drawing.start(grid_point(none, least), grid_point(none, right), grid_point(none, most),
                   grid_point(none, top));
-    std::vector<uint32_t> names(4, kNoPlace);  // by point of the drawing
+    constexpr uint32_t kBorderPoints = 4;
+    std::vector<uint32_t> names(kBorderPoints, kNoPlace);  // by point of the drawing
     std::unordered_map<uint32_t, uint32_t> drawn;
     for (const auto& [from, to] : outline) {
-      if (drawn.contains(from)) continue;
-      drawn[from] = drawing.insert(points.at(from));
-      names.push_back(from);
+      for (const uint32_t end : {from, to}) {
+        if (drawn.contains(end)) continue;
+        drawn[end] = drawing.insert(points.at(end));
+        names.push_back(end);
+      }
     }
     for (uint32_t i = 0; i < outline.size(); ++i) {
       drawing.draw(drawn.at(outline[i].first), drawn.at(outline[i].second), i);
@@ -211,6 +218,8 @@ class FaceMerger {
     for (const uint32_t i : inside(drawing)) {
       auto [a, b, c] = drawing.triangles()[i].points;
       if (!is_left) std::swap(b, c);
+      // The outline of an open surface need not be closed.
+      if (std::min({a, b, c}) < kBorderPoints) return unmerged(pieces);
       result.push_back({{names[a], names[b], names[c]}, kept_[pieces.front()].triangle.operand});
     }
     return result;
@@ -250,7 +259,7 @@ class FaceMerger {
   const Pieces& pieces_;
   const std::vector<KeptPiece>& kept_;
   DisjointSets faces_;               // of kept pieces
-  std::vector<uint32_t> in_sheets_;  // kept pieces
+  std::vector<uint32_t> merged_;     // kept pieces
   std::vector<bool> is_of_facet_;    // by point: of other pieces
   std::vector<uint32_t> corner_at_;  // by point: its place in corners_
   std::vector<FaceCorner> corners_;

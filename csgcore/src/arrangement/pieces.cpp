@@ -30,28 +30,29 @@ Pieces::Pieces(const Facets& facets, const CellTree& cells, const Sheets& sheets
 void Pieces::number_points() {
   struct Named {
     PointName name;
-    const ArrangedPoint* point;
+    uint32_t sheet;
+    uint32_t point;
+    auto operator<=>(const Named&) const = default;
   };
   std::vector<Named> named;
-  for (const Sheet& sheet : sheets_.sheets) {
-    for (const ArrangedPoint& point : sheet.points) {
-      if (point.name.kind() != PointName::kCorner) named.push_back({point.name, &point});
+  for (uint32_t i = 0; i < sheets_.sheets.size(); ++i) {
+    const Sheet& sheet = sheets_.sheets[i];
+    for (uint32_t j = 0; j < sheet.points.size(); ++j) {
+      const PointName& name = sheet.points[j].name;
+      if (name.kind() != PointName::kCorner) named.push_back({name, i, j});
     }
     for (const auto& alias : sheet.aliases) {
-      if (alias.name.kind() != PointName::kCorner) {
-        named.push_back({alias.name, &sheet.points[alias.point]});
-      }
+      if (alias.name.kind() != PointName::kCorner) named.push_back({alias.name, i, alias.point});
     }
   }
-  tbb::parallel_sort(named.begin(), named.end(), [](const Named& a, const Named& b) {
-    return std::pair(a.name, a.point) < std::pair(b.name, b.point);
-  });
+  tbb::parallel_sort(named.begin(), named.end());
+  // The sheets may have rounded a point differently: the first of them counts.
   std::vector<PointName> names;
   std::vector<const ArrangedPoint*> points;
   for (const Named& entry : named) {
     if (!names.empty() && names.back() == entry.name) continue;
     names.push_back(entry.name);
-    points.push_back(entry.point);
+    points.push_back(&sheets_.sheets[entry.sheet].points[entry.point]);
   }
   const auto number_of = [&](const PointName& name) {
     if (name.kind() == PointName::kCorner) return name.numbers[1];
@@ -116,23 +117,23 @@ void Pieces::find_patches(const CellTree& cells) {
   DisjointSets patches(pieces_.size());
   // Facets that are alone in a cell have the same solids around them. Others are compared with
   // their neighbours.
-  std::vector<bool> is_compared(pieces_.size(), true);
+  is_compared_.assign(pieces_.size(), true);
   for (const CellTree::Alone& cell : cells.alone()) {
     uint32_t first = kNoPlace;
     for (const uint32_t facet : cell.facets) {
       const uint32_t piece = piece_of_[facet];
       if (piece == kNoPlace) continue;
-      is_compared[piece] = false;
+      is_compared_[piece] = false;
       if (first == kNoPlace) first = piece;
       patches.join(first, piece);
     }
   }
   for (const uint32_t facet : cells.others()) {
-    if (piece_of_[facet] != kNoPlace) is_compared[piece_of_[facet]] = true;
+    if (piece_of_[facet] != kNoPlace) is_compared_[piece_of_[facet]] = true;
   }
   std::vector<SideOfPiece> sides;
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
-    if (!is_compared[i]) continue;
+    if (!is_compared_[i]) continue;
     const auto& points = pieces_[i].points;
     for (size_t j = 0; j < 3; ++j) {
       // A line that was drawn may have more points in the other surface's sheet.

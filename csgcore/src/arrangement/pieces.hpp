@@ -33,6 +33,8 @@ class Pieces {
     return piece.sheet == kNoPlace ? std::span(&piece.cover, 1)
                                    : sheets_.sheets[piece.sheet].covers[piece.cover];
   }
+  /// Returns whether the piece is where more than its own operand matters.
+  bool is_compared(uint32_t piece) const { return is_compared_[piece]; }
   /// By piece: the first piece of its patch. The pieces of a patch have the same solids before and
   /// behind them, and facets of the same operands, turned the same way.
   const std::vector<uint32_t>& patches() const { return patches_; }
@@ -60,6 +62,7 @@ class Pieces {
   std::vector<Piece> pieces_;                   // facets first
   std::vector<uint32_t> patches_;
   std::vector<uint32_t> piece_of_;  // by facet
+  std::vector<bool> is_compared_;   // by piece
 };
 
 }  // namespace csgcore
