@@ -30,6 +30,9 @@ struct FaceCorner {
   uint32_t count = 0;
 };
 
+/// Only the outline of an open surface crosses itself.
+struct OutlineCrosses {};
+
 class FaceMerger {
  public:
   FaceMerger(const Pieces& pieces, const std::vector<KeptPiece>& kept)
@@ -188,7 +191,8 @@ class FaceMerger {
         }
       }
     }
-    PlanarSubdivision drawing(axis, [](uint32_t, uint32_t, auto&) { return ArrangedPoint(); });
+    PlanarSubdivision drawing(
+        axis, [](uint32_t, uint32_t, auto&) -> ArrangedPoint { throw OutlineCrosses(); });
     const auto u = static_cast<size_t>(u_axis(axis));
     const auto v = static_cast<size_t>(v_axis(axis));
     GridPoint right = least;
@@ -208,8 +212,12 @@ class FaceMerger {
         names.push_back(end);
       }
     }
-    for (uint32_t i = 0; i < outline.size(); ++i) {
-      drawing.draw(drawn.at(outline[i].first), drawn.at(outline[i].second), i);
+    try {
+      for (uint32_t i = 0; i < outline.size(); ++i) {
+        drawing.draw(drawn.at(outline[i].first), drawn.at(outline[i].second), i);
+      }
+    } catch (const OutlineCrosses&) {
+      return unmerged(pieces);
     }
     const bool is_left = turn(pieces_.point(kept_[pieces.front()].triangle.points[0]),
                               pieces_.point(kept_[pieces.front()].triangle.points[1]),
