@@ -169,21 +169,69 @@ class SheetMaker {
     return rational_point(name, meet(facets_.plane(a), facets_.plane(b), facets_.plane(c)));
   }
 
-  /// Returns where the lines cross. What other sheets may call the point is added to `aliases`:
-  /// what is an edge in one sheet may be the inside of a facet in another.
-  ArrangedPoint meet_of_lines(const Line& p, const Line& q, uint32_t plane, int axis,
-                              std::vector<PointName>& aliases) const {
+  /// The names of the point in which lines cross. What is an edge in one sheet may be the inside of
+  /// a facet in another.
+  static std::vector<PointName> names_of(const Line& p, const Line& q, uint32_t plane) {
+    std::vector<PointName> result;
     if (!p.is_edge() && !q.is_edge()) {
-      return arranged(name_of_planes(plane, p.facet, q.facet), axis);
+      result.push_back(name_of_planes(plane, p.facet, q.facet));
+    }
+    if (p.is_edge() && q.is_edge()) {
+      result.push_back(name_of_edges(p.edge[0], p.edge[1], q.edge[0], q.edge[1]));
     }
     for (const auto& [edge, other] : {std::pair(&p, &q), std::pair(&q, &p)}) {
       if (!edge->is_edge() || other->facet == kNoPlace) continue;
-      aliases.push_back(name_of(edge->edge[0], edge->edge[1], other->facet));
+      result.push_back(name_of(edge->edge[0], edge->edge[1], other->facet));
     }
-    if (p.is_edge() && q.is_edge()) {
-      return arranged(name_of_edges(p.edge[0], p.edge[1], q.edge[0], q.edge[1]), axis);
+    return result;
+  }
+
+  /// Where three lines and more pass a point, other sheets may know it by any two of them.
+  static void add_names(const PlanarSubdivision& drawing, const std::vector<Line>& lines,
+                        uint32_t plane, std::vector<PlanarSubdivision::Alias>& aliases) {
+    struct Passing {
+      uint32_t point;
+      uint32_t line;
+      uint32_t next;  // a point on the line
+      auto operator<=>(const Passing&) const = default;
+    };
+    std::vector<Passing> passing;
+    for (const auto& triangle : drawing.triangles()) {
+      for (size_t edge = 0; edge < 3; ++edge) {
+        const uint32_t a = triangle.points[edge];
+        const uint32_t b = triangle.points[(edge + 1) % 3];
+        for (uint32_t link = triangle.lines[edge]; link != kNoPlace;
+             link = drawing.links()[link].next) {
+          const uint32_t line = drawing.links()[link].line;
+          passing.push_back({a, line, b});
+          passing.push_back({b, line, a});
+        }
+      }
     }
-    return arranged(aliases.front(), axis);
+    std::ranges::sort(passing);
+    const auto is_same = [](const Passing& p, const Passing& q) {
+      return p.point == q.point && p.line == q.line;
+    };
+    passing.erase(std::unique(passing.begin(), passing.end(), is_same), passing.end());
+    const auto& points = drawing.points();
+    for (size_t begin = 0; begin < passing.size();) {
+      size_t end = begin + 1;
+      while (end < passing.size() && passing[end].point == passing[begin].point) ++end;
+      const ArrangedPoint& point = points[passing[begin].point];
+      const bool has_other_names = end - begin > 2 && point.name.kind() != PointName::kCorner;
+      for (size_t i = begin; i < end && has_other_names; ++i) {
+        for (size_t j = i + 1; j < end; ++j) {
+          const bool is_one_line =
+              turn(point, points[passing[i].next], points[passing[j].next], drawing.axis()) == 0;
+          if (is_one_line) continue;
+          for (const PointName& name :
+               names_of(lines[passing[i].line], lines[passing[j].line], plane)) {
+            if (name != point.name) aliases.push_back({passing[begin].point, name});
+          }
+        }
+      }
+      begin = end;
+    }
   }
 
   Sheet sheet(size_t begin, size_t end) const {
@@ -197,7 +245,8 @@ class SheetMaker {
     const int axis = facets_.plane(plane).axis();
     std::vector<Line> lines;
     PlanarSubdivision drawing(axis, [&](uint32_t p, uint32_t q, std::vector<PointName>& aliases) {
-      return meet_of_lines(lines[p], lines[q], plane, axis, aliases);
+      aliases = names_of(lines[p], lines[q], plane);
+      return arranged(aliases.front(), axis);
     });
     start(drawing, members);
     // The edges of the facets are their first lines.
@@ -226,7 +275,9 @@ class SheetMaker {
       drawing.draw(ends[i - begin].first, ends[i - begin].second,
                    static_cast<uint32_t>(lines.size() - 1));
     }
-    return finished(drawing, members);
+    Sheet result = finished(drawing, members);
+    add_names(drawing, lines, plane, result.aliases);
+    return result;
   }
 
   /// Starts the drawing with the facet, or with a rectangle around all of them.
