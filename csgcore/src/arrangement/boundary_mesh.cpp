@@ -11,6 +11,7 @@
 #include "arrangement/merged_faces.hpp"
 #include "arrangement/pieces.hpp"
 #include "arrangement/sheets.hpp"
+#include "arrangement/simple_surfaces.hpp"
 #include "csgcore/stop_scope.hpp"
 
 namespace csgcore {
@@ -136,9 +137,8 @@ class BoundaryMaker {
 }  // namespace
 
 BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree& tree) {
-  const Facets facets = facets_on_grid(operands);
-  std::vector<bool> may_cross_itself;
-  for (const TriangleSet& operand : operands) may_cross_itself.push_back(!operand.is_simple);
+  Facets facets = facets_on_grid(operands);
+  const std::vector<bool> may_cross_itself = find_simple_surfaces(operands, facets);
   const CellTree cells(facets, tree, may_cross_itself);
   const Sheets sheets = sheets_of(facets, cells.pairs());
   const Pieces pieces(facets, cells, sheets);
