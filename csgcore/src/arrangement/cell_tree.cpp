@@ -152,8 +152,15 @@ class CellTree::Builder {
     }
     constexpr size_t kFew = 24;
     constexpr int kDeepest = 60;
-    if (cell.facets.size() <= kFew || depth == kDeepest || !divide(cell)) {
-      add_pairs(cell.facets);
+    // Few facets are compared, unless they are apart: then each may be alone in a smaller cell.
+    std::vector<std::pair<uint32_t, uint32_t>> pairs;
+    const bool is_small = cell.facets.size() <= kFew;
+    if (is_small) pairs = pairs_of(cell.facets);
+    if (!pairs.empty() || depth == kDeepest || !divide(cell)) {
+      Found& found = found_.local();
+      found.others.insert(found.others.end(), cell.facets.begin(), cell.facets.end());
+      if (!is_small) pairs = pairs_of(cell.facets);
+      found.pairs.insert(found.pairs.end(), pairs.begin(), pairs.end());
       return;
     }
     const size_t facets = cell.low->facets.size() + cell.high->facets.size();
@@ -232,7 +239,10 @@ class CellTree::Builder {
       std::vector<float>& values = centers[axis];
       const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
       std::nth_element(values.begin(), middle, values.end());
-      if (divide(cell, axis, std::llrint(*middle))) return true;
+      // Between two centres, so that it need not touch what stands apart.
+      const float below =
+          middle == values.begin() ? *middle : *std::max_element(values.begin(), middle);
+      if (divide(cell, axis, std::llrint((below + *middle) / 2))) return true;
     }
     return false;
   }
@@ -320,23 +330,22 @@ class CellTree::Builder {
     cell.facets.clear();
   }
 
-  void add_pairs(const std::vector<uint32_t>& facets) {
-    std::vector<uint32_t> list(facets);
-    std::vector<uint32_t>& others = found_.local().others;
-    others.insert(others.end(), list.begin(), list.end());
-    std::ranges::sort(list, {}, [&](uint32_t facet) { return boxes_[facet].min[0]; });
-    auto& pairs = found_.local().pairs;
-    for (size_t i = 0; i < list.size(); ++i) {
-      const FacetBox& box = boxes_[list[i]];
-      const uint32_t operand = facets_.facets[list[i]].operand;
-      for (size_t j = i + 1; j < list.size(); ++j) {
-        const FacetBox& other = boxes_[list[j]];
+  /// Returns the pairs whose boxes meet, of different operands or of one that may cross itself.
+  std::vector<std::pair<uint32_t, uint32_t>> pairs_of(std::vector<uint32_t> facets) const {
+    std::vector<std::pair<uint32_t, uint32_t>> pairs;
+    std::ranges::sort(facets, {}, [&](uint32_t facet) { return boxes_[facet].min[0]; });
+    for (size_t i = 0; i < facets.size(); ++i) {
+      const FacetBox& box = boxes_[facets[i]];
+      const uint32_t operand = facets_.facets[facets[i]].operand;
+      for (size_t j = i + 1; j < facets.size(); ++j) {
+        const FacetBox& other = boxes_[facets[j]];
         if (other.min[0] > box.max[0]) break;
         if (!box.meets(other)) continue;
-        if (operand == facets_.facets[list[j]].operand && !may_cross_itself_[operand]) continue;
-        pairs.push_back(std::minmax(list[i], list[j]));
+        if (operand == facets_.facets[facets[j]].operand && !may_cross_itself_[operand]) continue;
+        pairs.push_back(std::minmax(facets[i], facets[j]));
       }
     }
+    return pairs;
   }
 
   const Facets& facets_;

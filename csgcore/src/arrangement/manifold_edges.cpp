@@ -102,14 +102,30 @@ class Parting {
       turned.push_back({std::atan2(glm::dot(direction, quarter), glm::dot(direction, zero)), edge});
     }
     std::ranges::stable_sort(turned, {}, &Turned::angle);
-    // Parts of the solid do not overlap: each ends where the next triangle rises.
+    // Parts of the solid do not overlap: each ends where the next triangle rises. Of faces whose
+    // directions rounding has exchanged the first that are left make a pair.
+    std::vector<HalfEdge> begins;
+    std::vector<HalfEdge> ends;
     for (size_t i = 0; i < turned.size(); ++i) {
-      const HalfEdge& begin = turned[i].edge;
-      const HalfEdge& end = turned[(i + 1) % turned.size()].edge;
-      if (is_rising(begin) || !is_rising(end)) continue;
-      join(fans, begin, end);
-      crowded_.push_back({begin, end});
+      const HalfEdge& edge = turned[i].edge;
+      const HalfEdge& next = turned[(i + 1) % turned.size()].edge;
+      const HalfEdge& before = turned[(i + turned.size() - 1) % turned.size()].edge;
+      if (!is_rising(edge) && is_rising(next)) {
+        pair(fans, edge, next);
+      } else if (!is_rising(edge)) {
+        begins.push_back(edge);
+      } else if (is_rising(before)) {
+        ends.push_back(edge);
+      }
     }
+    for (size_t i = 0; i < std::min(begins.size(), ends.size()); ++i) {
+      pair(fans, begins[i], ends[i]);
+    }
+  }
+
+  void pair(DisjointSets& fans, const HalfEdge& begin, const HalfEdge& end) {
+    join(fans, begin, end);
+    crowded_.push_back({begin, end});
   }
 
   void copy_vertices(DisjointSets& fans) {
