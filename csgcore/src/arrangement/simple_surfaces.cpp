@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "csgcore/stop_scope.hpp"
 
@@ -39,9 +40,49 @@ double volume_of(const Facets& facets, std::span<const Facet> surface) {
 /// of the four points by less than a unit of the grid.
 constexpr double kFlat = 4;
 
+/// Returns whether the facets around each corner wind once around the sum of their normals.
+bool wind_once(const Facets& facets, std::span<const Facet> surface) {
+  std::vector<uint32_t> corners;
+  for (const Facet& facet : surface) {
+    corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
+  }
+  std::ranges::sort(corners);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const auto place_of = [&](uint32_t corner) {
+    return static_cast<size_t>(std::ranges::lower_bound(corners, corner) - corners.begin());
+  };
+  struct Around {
+    Vec3 normal{0.0};
+    double angle = 0;
+  };
+  std::vector<Around> around(corners.size());
+  const auto corner = [&](const Facet& facet, size_t i) {
+    return to_vec3(facets.points[facet.corners[i % 3]]);
+  };
+  for (const Facet& facet : surface) {
+    const Vec3 area =
+        glm::cross(corner(facet, 1) - corner(facet, 0), corner(facet, 2) - corner(facet, 0));
+    for (const uint32_t place : facet.corners)
+      around[place_of(place)].normal += glm::normalize(area);
+  }
+  for (const Facet& facet : surface) {
+    for (size_t i = 0; i < 3; ++i) {
+      Around& at = around[place_of(facet.corners[i])];
+      const Vec3 axis = glm::normalize(at.normal);
+      const Vec3 p = corner(facet, i + 1) - corner(facet, i);
+      const Vec3 q = corner(facet, i + 2) - corner(facet, i);
+      at.angle += std::atan2(glm::dot(axis, glm::cross(p, q)),
+                             glm::dot(p, q) - glm::dot(axis, p) * glm::dot(axis, q));
+    }
+  }
+  return std::ranges::all_of(
+      around, [](const Around& at) { return std::abs(at.angle - 2 * std::numbers::pi) < 1; });
+}
+
 /// Returns whether the facets are, but for rounding, the boundary of a convex solid. At each edge
 /// two of them meet, and bend towards the same side everywhere; by Euler's formula they are one
-/// sphere, which winds around the inside once if a ray from there leaves through one facet.
+/// sphere. A closed surface that is convex near each of its points bounds a convex solid (van
+/// Heijenoort, "On locally convex manifolds", 1952).
 bool is_convex(const Facets& facets, std::span<const Facet> surface) {
   std::vector<EdgeOfFacet> edges;
   edges.reserve(3 * surface.size());
@@ -91,24 +132,7 @@ bool is_convex(const Facets& facets, std::span<const Facet> surface) {
       return false;
     }
   }
-  if (bend == 0) return false;
-  // A ray from the middle of a facet through the solid meets one facet more.
-  const GridPlane first = plane_of(0);
-  size_t behind = 0;
-  const auto& [a, b, c] = surface[0].corners;
-  GridPoint middle;
-  for (size_t i = 0; i < 3; ++i) {
-    middle[i] = (facets.points[a][i] + facets.points[b][i] + facets.points[c][i]) / 3;
-  }
-  for (const Facet& facet : surface) {
-    const auto& [p, q, r] = facet.corners;
-    const int turned = turn(facets.points[p], facets.points[q], middle, first.axis());
-    const bool is_in_column =
-        turned == turn(facets.points[q], facets.points[r], middle, first.axis()) &&
-        turned == turn(facets.points[r], facets.points[p], middle, first.axis());
-    if (is_in_column) ++behind;
-  }
-  return behind == 2;
+  return bend != 0 && wind_once(facets, surface);
 }
 
 }  // namespace
