@@ -146,8 +146,9 @@ class SheetMaker {
   /// A line in the drawing of a sheet: an edge of one of its facets, or where another plane meets
   /// it, which may be along an edge of a facet of that plane.
   struct Line {
-    uint32_t facet;            // of the other plane, or kNoPlace
+    uint32_t facet;            // the first of the other plane, or kNoPlace
     FacetCrossing::Edge edge;  // or kNoPlace
+    uint32_t met;              // the facet of that plane which is met, or kNoPlace
 
     bool is_edge() const { return edge[0] != kNoPlace; }
   };
@@ -186,9 +187,19 @@ class SheetMaker {
     return result;
   }
 
-  /// Where three lines and more pass a point, other sheets may know it by any two of them.
-  static void add_names(const PlanarSubdivision& drawing, const std::vector<Line>& lines,
-                        uint32_t plane, std::vector<PlanarSubdivision::Alias>& aliases) {
+  /// Returns whether the point is a corner of the facet that the line comes from.
+  bool ends_in(const Line& line, const ArrangedPoint& point) const {
+    if (point.name.kind() != PointName::kCorner) return false;
+    const uint32_t corner = point.name.numbers[1];
+    if (line.met == kNoPlace) return std::ranges::find(line.edge, corner) != line.edge.end();
+    const auto& corners = facets_.facets[line.met].corners;
+    return std::ranges::find(corners, corner) != corners.end();
+  }
+
+  /// Where three lines and more pass a point, or two pass a corner of other facets,
+  /// other sheets may know it by any two of them.
+  void add_names(const PlanarSubdivision& drawing, const std::vector<Line>& lines, uint32_t plane,
+                 std::vector<PlanarSubdivision::Alias>& aliases) const {
     struct Passing {
       uint32_t point;
       uint32_t line;
@@ -203,8 +214,8 @@ class SheetMaker {
         for (uint32_t link = triangle.lines[edge]; link != kNoPlace;
              link = drawing.links()[link].next) {
           const uint32_t line = drawing.links()[link].line;
-          passing.push_back({a, line, b});
-          passing.push_back({b, line, a});
+          if (!ends_in(lines[line], drawing.points()[a])) passing.push_back({a, line, b});
+          if (!ends_in(lines[line], drawing.points()[b])) passing.push_back({b, line, a});
         }
       }
     }
@@ -218,7 +229,7 @@ class SheetMaker {
       size_t end = begin + 1;
       while (end < passing.size() && passing[end].point == passing[begin].point) ++end;
       const ArrangedPoint& point = points[passing[begin].point];
-      const bool has_other_names = end - begin > 2 && point.name.kind() != PointName::kCorner;
+      const bool has_other_names = end - begin > (point.name.kind() == PointName::kCorner ? 1 : 2);
       for (size_t i = begin; i < end && has_other_names; ++i) {
         for (size_t j = i + 1; j < end; ++j) {
           const bool is_one_line =
@@ -253,7 +264,7 @@ class SheetMaker {
     for (const uint32_t member : members) {
       const auto& corners = facets_.facets[member].corners;
       for (size_t i = 0; i < 3; ++i)
-        lines.push_back({kNoPlace, {corners[i], corners[(i + 1) % 3]}});
+        lines.push_back({kNoPlace, {corners[i], corners[(i + 1) % 3]}, kNoPlace});
     }
     std::vector<std::pair<uint32_t, uint32_t>> ends;  // by trace
     for (size_t i = begin; i < end; ++i) {
@@ -271,7 +282,7 @@ class SheetMaker {
     }
     for (size_t i = begin; i < end; ++i) {
       if (ends[i - begin].first == ends[i - begin].second) continue;
-      lines.push_back({plane_of(traces_[i].other), traces_[i].edge});
+      lines.push_back({plane_of(traces_[i].other), traces_[i].edge, traces_[i].other});
       drawing.draw(ends[i - begin].first, ends[i - begin].second,
                    static_cast<uint32_t>(lines.size() - 1));
     }
