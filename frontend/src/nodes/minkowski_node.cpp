@@ -24,12 +24,10 @@ std::optional<std::vector<Figure>> sum_of_figures(PlaneEvaluation& planes, uint3
   return sum;
 }
 
-std::vector<SolidPart> sum(SolidEvaluation& solids, const std::vector<SolidPart>& a,
-                           const std::vector<SolidPart>& b) {
+std::vector<SolidPart> sum(SolidEvaluation& solids, std::vector<SolidPart> a,
+                           std::vector<SolidPart> b) {
   SolidSums sums;
-  for (const SolidPart& part : a) {
-    for (const SolidPart& other : b) sums.add(part, other);
-  }
+  sums.add(std::move(a), std::move(b));
   if (!sums.failure().empty()) solids.fail(sums.failure());
   return sums.take();
 }
@@ -50,7 +48,7 @@ SolidValue sum_of_solids(SolidEvaluation& solids, uint32_t node) {
       continue;
     }
     // As in OpenSCAD, nothing is left where a sum is flat, whatever comes after it.
-    result = sum(solids, result, parts);
+    result = sum(solids, std::move(result), std::move(parts));
     if (result.empty()) return {};
   }
   return union_of(std::move(result));

@@ -74,7 +74,7 @@ SolidValue resized(SolidEvaluation& solids, uint32_t node) {
   SolidValue result = combined(csgcore::Op::kUnion, solids.operands(node));
   if (result.is_empty()) return {};
   csgcore::Box box;
-  for (const SolidPart& part : solids.united(result)) box.merge(part.box);
+  for (const SolidPart& part : solids.united(result, Fineness::kOpenScad)) box.merge(part.box);
   if (box.empty()) return {};
   const csgcore::Vec3 factors = factors_of(solids.data<ResizeArguments>(node), box.size(), 3);
   csgcore::Affine map;

@@ -45,7 +45,7 @@ int chords_of_circle(const Chords& chords, double radius) {
   if (chords.tolerance == 0) return chords.most;
   const double half_angle = std::acos(std::max(1 - chords.tolerance / radius, -1.0));
   const double count = std::ceil(kTurn / 2 / half_angle);
-  return static_cast<int>(std::clamp<double>(count, Chords::kFewest, chords.most));
+  return static_cast<int>(std::clamp<double>(count, chords.fewest, chords.most));
 }
 
 /// Returns how many chords a Bézier curve needs, none of which is further away than `distance`.

@@ -46,9 +46,9 @@ constexpr int kChordsOfCircle = 360;
 /// How curves become chords.
 struct Chords {
   int most = kChordsOfCircle;  // for a whole circle
-  /// A circle has fewer chords, but no fewer than kFewest, if they are no farther from it.
+  /// A circle has fewer chords, but no fewer than `fewest`, if they are no farther from it.
   double tolerance = 0;
-  static constexpr int kFewest = 24;
+  int fewest = 24;
 };
 
 /// Returns OpenSCAD's polygon for a circle: its corners lie on the circle, the first one on +x.

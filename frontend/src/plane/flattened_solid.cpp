@@ -1,6 +1,7 @@
 #include "plane/flattened_solid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>

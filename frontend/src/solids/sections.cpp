@@ -11,6 +11,7 @@
 #include "csgcore/triangle_mesh.hpp"
 #include "hulls/generator.hpp"
 #include "hulls/orthonormal.hpp"
+#include "plane/flattened_solid.hpp"
 #include "solids/leaves.hpp"
 #include "solids/triangles_of.hpp"
 
@@ -111,7 +112,9 @@ std::vector<Figure> section_of_primitive(const Primitive& primitive, bool& has_o
     has_open_mesh = true;
     return {};
   }
-  return section_of(triangles_of(primitive));
+  csgcore::TriangleSet triangles = triangles_of(primitive, kChordsOfCircle);
+  put_in_plane(triangles);
+  return section_of(triangles);
 }
 
 std::vector<Figure> section_of_part(const SolidPart& part, bool& has_open_mesh) {

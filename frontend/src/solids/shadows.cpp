@@ -12,19 +12,16 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
+#include "plane/flattened_solid.hpp"
 #include "plane/hull.hpp"
-#include "solids/leaves.hpp"
 #include "solids/sections.hpp"
-#include "solids/solid_cuts.hpp"
+#include "solids/solid_union.hpp"
 #include "solids/triangles_of.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Affine;
-using csgcore::CsgToken;
-using csgcore::CsgTreeBuilder;
-using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
@@ -167,35 +164,7 @@ FigureOperations shadow_of_revolution(const csgcore::Profile& profile, const Pla
   return union_of(std::move(rings));
 }
 
-/// The subtrees whose union the tree is.
-std::vector<SolidValue> operands_of_union(const SolidValue& value) {
-  const std::span<const CsgToken> tokens = value.tree.tokens();
-  std::vector<size_t> starts;  // of the subtrees that no operation has taken
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const bool is_last = i + 1 == tokens.size();
-    if (tokens[i].is_primitive) {
-      starts.push_back(i);
-    } else if (!(is_last && tokens[i].op == Op::kUnion)) {
-      starts.resize(starts.size() - tokens[i].value + 1);
-    }
-  }
-  const size_t end = starts.size() > 1 ? tokens.size() - 1 : tokens.size();
-  std::vector<SolidValue> result;
-  for (size_t i = 0; i < starts.size(); ++i) {
-    const size_t next = i + 1 < starts.size() ? starts[i + 1] : end;
-    SolidValue& operand = result.emplace_back();
-    CsgTreeBuilder builder;
-    rebuild(tokens.subspan(starts[i], next - starts[i]), builder,
-            [&](CsgTreeBuilder& to, uint32_t part) {
-              to.primitive(static_cast<uint32_t>(operand.parts.size()));
-              operand.parts.push_back(value.parts[part]);
-            });
-    operand.tree = builder.finish();
-  }
-  return result;
-}
-
-/// More sections take longer than the convex parts of the outcome.
+/// More sections take longer than the mesh of the outcome.
 constexpr size_t kMostShadowSections = 1 << 14;
 
 /// The shadow of what stands upright: between the heights of its parts it has few sections.
@@ -243,8 +212,8 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
     }
   }
   const bool is_open = primitive.mesh() && !primitive.mesh()->is_closed();
-  std::optional<Figure> shadow =
-      shadow_of(triangles_of(primitive), is_open ? Boundary::kOpen : Boundary::kClosed);
+  std::optional<Figure> shadow = shadow_of(triangles_of(primitive, kChordsOfCircle),
+                                           is_open ? Boundary::kOpen : Boundary::kClosed);
   if (!shadow) {
     fail(kBecauseShadowCrosses);
     return {};
@@ -256,10 +225,10 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
 FigureOperations Shadows::of_operation(const SolidValue& value) {
   if (value.parts.size() == 1) return of_part(value.parts.front());
   if (std::optional<FigureOperations> shadow = shadow_of_upright(value)) return std::move(*shadow);
-  SolidCuts cuts;
+  SolidUnion outcome;
   std::vector<FigureOperations> shadows;
-  for (const SolidPart& part : cuts.united(value)) shadows.push_back(of_part(part));
-  if (!cuts.failure().empty()) fail(cuts.failure());
+  for (const SolidPart& part : outcome.parts_of(value)) shadows.push_back(of_part(part));
+  if (!outcome.failure().empty()) fail(outcome.failure());
   return union_of(std::move(shadows));
 }
 

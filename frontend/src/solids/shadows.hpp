@@ -13,8 +13,8 @@ namespace frontend {
 class Shadows {
  public:
   /// Returns the shadow; nothing if it cannot be found: failure() says why. The shadow of a union
-  /// is that of its operands. Differences and intersections have one if all their operands stand
-  /// upright between two heights, or are convex.
+  /// is that of its operands. Of differences and intersections it is exact where all their operands
+  /// stand upright between two heights.
   std::optional<FigureOperations> of(const SolidValue& value);
   std::string_view failure() const { return failure_; }
 

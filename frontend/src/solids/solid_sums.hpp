@@ -13,14 +13,19 @@ namespace frontend {
 /// Collects the sums of pairs of parts, whose union is the sum of the unions.
 class SolidSums {
  public:
-  void add(const SolidPart& a, const SolidPart& b);
+  /// Adds the sum of each part of the one and each of the other.
+  void add(std::vector<SolidPart> a, std::vector<SolidPart> b);
   std::vector<SolidPart> take() { return std::move(sums_); }
   /// Empty: there was none.
   std::string_view failure() const { return failure_; }
 
  private:
+  std::vector<SolidPart> in_convex_parts(const std::vector<SolidPart>& parts);
+  void add_pair(const SolidPart& a, const SolidPart& b);
   void add_convex(const SupportSet& a, const SupportSet& b, const csgcore::Box& box);
   void add_mesh(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
+  void add_faces(const SolidPart& mesh, const SupportSet& convex, const csgcore::Box& box);
+  void add_rounded(const SolidPart& mesh, const Generator& ball, const csgcore::Box& box);
   void add_extrusion(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
   void fail(std::string_view why);
 

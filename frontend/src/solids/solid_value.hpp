@@ -54,5 +54,7 @@ SolidValue value_of(SolidPart part);
 SolidValue union_of(std::vector<SolidPart> parts);
 /// Returns what the operation makes of the operands, of which some may be empty.
 SolidValue combined(csgcore::Op op, std::vector<SolidValue> operands);
+/// Returns values whose union the value is, of which none is a union of several parts.
+std::vector<SolidValue> operands_of_union(const SolidValue& value);
 
 }  // namespace frontend

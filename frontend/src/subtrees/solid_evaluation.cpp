@@ -6,7 +6,6 @@
 #include "csgcore/stop_scope.hpp"
 #include "solids/sections.hpp"
 #include "solids/shadows.hpp"
-#include "solids/solid_cuts.hpp"
 
 namespace frontend {
 
@@ -98,10 +97,10 @@ SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
   return value_of(std::move(part));
 }
 
-std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value) {
-  SolidCuts cuts;
-  std::vector<SolidPart> parts = cuts.united(value);
-  if (!cuts.failure().empty()) fail(cuts.failure());
+std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value, Fineness fineness) {
+  SolidUnion outcome(fineness);
+  std::vector<SolidPart> parts = outcome.parts_of(value);
+  if (!outcome.failure().empty()) fail(outcome.failure());
   return parts;
 }
 

@@ -8,6 +8,7 @@
 #include "solids/figure_operations.hpp"
 #include "solids/figure_solids.hpp"
 #include "solids/solid_shape.hpp"
+#include "solids/solid_union.hpp"
 #include "solids/solid_value.hpp"
 #include "subtrees/plane_evaluation.hpp"
 #include "subtrees/subtree.hpp"
@@ -43,8 +44,8 @@ class SolidEvaluation {
   std::vector<SolidValue> operands(uint32_t node);
   /// Returns the figures of the operands of an extrusion.
   std::vector<Figure> figures(uint32_t node) const { return planes_.union_of_operands(node); }
-  /// Returns convex parts whose union is the value, as far as that can be found.
-  std::vector<SolidPart> united(const SolidValue& value);
+  /// Returns parts whose union is the value, as far as that can be found.
+  std::vector<SolidPart> united(const SolidValue& value, Fineness fineness = Fineness::kSmooth);
   FigureSolids& figure_solids() { return figure_solids_; }
   NodeProblems& problems() { return problems_; }
   /// Nothing more is evaluated.

@@ -1,0 +1,23 @@
+// Solids as unions of convex ones.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "csgcore/boundary_mesh.hpp"
+
+namespace frontend {
+
+/// Returns how many edges of the surface turn inwards.
+size_t count_of_reflex_edges(const csgcore::TriangleSet& surface);
+
+/// Points whose hull is a piece.
+using PiecePoints = std::vector<csgcore::Vec3>;
+
+/// Cuts a solid at the planes of faces where its boundary turns inwards, until all pieces are
+/// convex. The surface is closed, and does not cross itself: boundary_mesh() has made it. The
+/// pieces are the solid's, but for 2^-28 of its size. Returns nothing if they would be very many.
+std::optional<std::vector<PiecePoints>> convex_pieces(csgcore::TriangleSet surface);
+
+}  // namespace frontend

@@ -1,0 +1,42 @@
+// The outcome of set operations on solids, as solids whose union it is.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "csgcore/boundary_mesh.hpp"
+#include "solids/solid_value.hpp"
+
+namespace frontend {
+
+/// How many facets what is round gets where it takes part in a difference or an intersection.
+enum class Fineness : uint8_t {
+  kOpenScad,  // those that OpenSCAD gives it
+  kSmooth,    // at least kChordsOfCutDisc
+};
+
+class SolidUnion {
+ public:
+  explicit SolidUnion(Fineness fineness = Fineness::kSmooth) : fineness_(fineness) {}
+
+  /// Returns parts whose union is the value, or nothing if failure() is not empty. What no
+  /// difference or intersection takes part in stays what it is. The others are convex bodies of
+  /// points, or closed meshes.
+  std::vector<SolidPart> parts_of(const SolidValue& value);
+  std::string_view failure() const { return failure_; }
+
+ private:
+  std::vector<SolidPart> outcome(const SolidValue& value);
+  csgcore::TriangleSet triangles_of(const SolidPart& part, bool& is_smooth);
+  void fail(std::string_view why);
+
+  Fineness fineness_;
+  std::string_view failure_;
+  size_t triangles_ = 0;  // of all operands so far
+};
+
+/// Returns the part that the closed surface bounds: a convex body if it is convex.
+SolidPart part_of(csgcore::TriangleSet surface, bool is_smooth);
+
+}  // namespace frontend
