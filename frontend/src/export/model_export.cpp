@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -43,15 +42,6 @@ Polygons outlines_of(const ImportedDesign& design) {
     outlines.emplace_back(outline.begin(), outline.end());
   }
   return outlines;
-}
-
-/// Returns the surface of the primitive, counterclockwise also where the matrix mirrors it.
-TriangleSet surface_of(const csgcore::Primitive& primitive) {
-  TriangleSet surface = triangles_of(primitive);
-  if (primitive.local_to_world.determinant() < 0) {
-    for (std::array<uint32_t, 3>& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
-  }
-  return surface;
 }
 
 csgcore::Box box_of(const TriangleSet& surface) {
@@ -157,7 +147,7 @@ void ModelExport::find_operands() {
     const csgcore::StopScope scope(stop);
     csgcore::stop_point();
     const uint32_t primitive = used[i];
-    operands_[primitive] = surface_of(scene.primitives[primitive]);
+    operands_[primitive] = triangles_of(scene.primitives[primitive], kChordsOfCircle);
     is_open[primitive] = csgcore::open_edges(operands_[primitive]) > 0;
   });
   if (used.size() == 1 && is_open[used.front()]) {
