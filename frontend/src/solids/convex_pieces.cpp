@@ -20,7 +20,9 @@ using csgcore::TriangleSet;
 using csgcore::Vec3;
 
 /// Triangles of what is cut, over all cuts: so many take about two seconds.
-constexpr size_t kMostCutTriangles = size_t{1} << 21;
+constexpr size_t kMostCutTriangles = size_t{1} << 18;
+/// Surfaces of more edges that turn inwards are curved, and never end in few pieces.
+constexpr size_t kMostReflexEdges = 2000;
 
 csgcore::CsgTree tree_of_two(Op op) {
   csgcore::CsgTreeBuilder builder;
@@ -101,6 +103,7 @@ size_t count_of_reflex_edges(const TriangleSet& surface) {
 }
 
 std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface) {
+  if (count_of_reflex_edges(surface) > kMostReflexEdges) return std::nullopt;
   const double slack = slack_of(surface);
   std::vector<PiecePoints> result;
   std::vector<TriangleSet> todo;

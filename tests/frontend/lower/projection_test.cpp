@@ -167,10 +167,27 @@ TEST(Shadow, OfOperationsOnConvexSolids) {
   EXPECT_TRUE(inside(0.5, 0.5, 1));
 }
 
-TEST(Shadow, IsLeftOutOfOtherOperations) {
-  EXPECT_THAT(warning_of(shadow("difference() { sphere(4); rotate_extrude() { " +
-                                moved(5, 0, 0, "circle(2);") + "} }")),
-              HasSubstr("projection is left out (it needs the outcome of"));
+TEST(Shadow, OfOperationsOnRoundSolids) {
+  // A ball with a hole along x, which casts the ball's shadow; one along z is seen through.
+  const std::string along_x = "multmatrix([[0,0,1,-9],[0,1,0,0],[-1,0,0,0],[0,0,0,1]]) {" +
+                              std::string("cylinder(h = 18, r = 1);}");
+  const Inside inside(shadow("difference() { sphere(4); " + along_x +
+                             moved(0, 0, -9, "cylinder(h = 18, r = 1);") + "}"));
+  EXPECT_TRUE(inside(1.01, 0, 1));
+  EXPECT_TRUE(inside(0, 3.98, 1));
+  EXPECT_TRUE(inside(2.8, 2.8, 1));
+  EXPECT_FALSE(inside(0.99, 0, 1));
+  EXPECT_FALSE(inside(4.01, 0, 1));
+  const Inside of_ring(shadow("difference() { sphere(4); rotate_extrude() { " +
+                              moved(5, 0, 0, "circle(2);") + "} }"));
+  EXPECT_TRUE(of_ring(3.4, 0, 1)) << "what is left reaches over the groove";
+  EXPECT_FALSE(of_ring(3.99, 0, 1));
+}
+
+TEST(Shadow, IsLeftOutOfOperationsWithOpenMeshes) {
+  EXPECT_THAT(warnings_of(shadow("difference() { cube(4); polyhedron(points = [[0,0,0],[3,0,0],"
+                                 "[0,4,0],[0,0,5]], faces = [[0,1,2],[0,3,1],[0,2,3]]); }")),
+              testing::Contains(HasSubstr("projection is left out (it needs the outcome of")));
 }
 
 // --- Both -----------------------------------------------------------------------------------

@@ -217,11 +217,44 @@ TEST(SolidHull, OfADifferenceWithWhatIsFlatIsThatOfTheSolid) {
   EXPECT_EQ(model_of("hull() { intersection() { " + cubes + flat + "} }"), "-");
 }
 
-TEST(SolidHull, IsLeftOutWhereItWouldNeedOtherOperations) {
-  EXPECT_THAT(warnings_of("hull() { difference() { cube(4); sphere(3); } }"),
-              testing::ElementsAre(
-                  HasSubstr("a.csg:1:1: warning: hull is left out (it needs the outcome of "
-                            "a difference or an intersection with a ball)")));
+TEST(SolidHull, OfWhatOperationsLeaveOfRoundSolids) {
+  // A ball without its upper part, from z = 1 on.
+  const Inside cap("hull() { difference() { sphere(4); " + at(-5, -5, 1, "cube(10);") + "} }");
+  EXPECT_TRUE(cap(0, 0, 0.999));
+  EXPECT_FALSE(cap(0, 0, 1.001));
+  EXPECT_TRUE(cap(0, 0, -3.99));
+  EXPECT_TRUE(cap(3.98, 0, -0.1));
+  EXPECT_FALSE(cap(4.001, 0, 0));
+  EXPECT_EQ(cap.design().faceted_leaves, 1u);
+  // Half of a torus, whose hull has no hole.
+  const Inside half("hull() { intersection() { rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") +
+                    "} " + at(0, -9, -9, "cube(18);") + "} }");
+  EXPECT_TRUE(half(0.01, 5.9, 0));
+  EXPECT_TRUE(half(1, 0, 0.9));
+  EXPECT_FALSE(half(-0.01, 3, 0));
+}
+
+TEST(SolidHull, OfOperationsThatLeaveASolidAsItIsKeepsItExact) {
+  const Inside inside("hull() { difference() { sphere(4); " + at(9, 0, 0, "sphere(1);") + "} }");
+  EXPECT_THAT(inside.design().scene.primitives, SizeIs(1));
+  EXPECT_EQ(count_of(inside.design(), Shape::kSphere), 1u);
+}
+
+TEST(SolidHull, OfOperationsWithinOperations) {
+  const Inside inside("hull() { difference() { union() { cube(4); " + at(3, 0, 0, "cube(4);") +
+                      "} difference() { " + at(-1, -1, 2, "cube(20);") + at(6, -2, 1, "cube(20);") +
+                      "} } }");
+  EXPECT_TRUE(inside(6.5, 3.9, 3.9)) << "a cutter has a hole there";
+  EXPECT_FALSE(inside(0.1, 2, 3)) << "below the line from there to the corner at z = 2";
+  EXPECT_TRUE(inside(0.1, 2, 1.9));
+}
+
+TEST(SolidHull, IsLeftOutWhereAnOpenMeshTakesPart) {
+  EXPECT_THAT(warnings_of("hull() { difference() { cube(4); polyhedron(" + kCorner +
+                          "faces = [[0,1,2],[0,3,1],[0,2,3]]); } }"),
+              testing::Contains(HasSubstr(
+                  "a.csg:1:1: warning: hull is left out (it needs the outcome of a difference "
+                  "or an intersection with a mesh that is not closed)")));
 }
 
 TEST(SolidHull, MayStandInOperationsAndModifiers) {
@@ -358,7 +391,63 @@ TEST(SolidMinkowski, OfATurningExtrusionGoesAlongItsFaces) {
   EXPECT_TRUE(inside(4.4, 0, 0));
 }
 
-TEST(SolidMinkowski, IsLeftOutOfTwoThatAreNotConvex) {
+TEST(SolidMinkowski, RoundsWhatOperationsLeave) {
+  // A block with a hole of 4 × 4, and a ball.
+  const Inside inside("minkowski() { difference() { cube([10, 10, 4]); " +
+                      at(3, 3, -1, "cube([4, 4, 6]);") + "} sphere(1); }");
+  EXPECT_TRUE(inside(-0.99, 5, 2));
+  EXPECT_FALSE(inside(-1.01, 5, 2));
+  EXPECT_TRUE(inside(3.99, 5, 2));
+  EXPECT_FALSE(inside(4.01, 5, 2)) << "in the hole";
+  EXPECT_FALSE(inside(3.8, 5, 4.8)) << "beyond the rounded edge of the hole";
+  EXPECT_TRUE(inside(3.6, 5, 4.6));
+  EXPECT_TRUE(inside(4 - 0.3, 4 - 0.3, 2)) << "an inner corner stays sharp";
+  const double corner = 1 / std::sqrt(3.0);
+  EXPECT_TRUE(inside(10 + corner - 1e-6, 10 + corner - 1e-6, 4 + corner - 1e-6));
+  EXPECT_FALSE(inside(10 + corner + 1e-6, 10 + corner + 1e-6, 4 + corner + 1e-6));
+}
+
+TEST(SolidMinkowski, OfARoundSolidThatIsNotConvexTakesItsFacets) {
+  const std::string ring = "rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "}";
+  const Inside inside("minkowski() {" + ring + "cube(2, center = true); }");
+  EXPECT_TRUE(inside(6.98, 0, 0.9));
+  EXPECT_FALSE(inside(7.01, 0, 0));
+  EXPECT_FALSE(inside(0, 0, 0)) << "in the hole";
+  EXPECT_FALSE(inside(2.8, 0, 0));
+  EXPECT_TRUE(inside(2.95, 0, 0));
+}
+
+TEST(SolidMinkowski, OfATaperedProfileTakesItsFacets) {
+  const Inside inside(
+      "minkowski() { linear_extrude(height = 4, scale = 0.5) { difference() {"
+      "square(8, center = true); square(4, center = true); } }"
+      "cube(1, center = true); }");
+  EXPECT_TRUE(inside(4.4, 0, 0));
+  EXPECT_FALSE(inside(0, 0, 2));
+  EXPECT_TRUE(inside(2.4, 0, 4.4));
+  EXPECT_FALSE(inside(2.6, 0, 4.4));
+}
+
+TEST(SolidMinkowski, OfTwoThatAreNotConvexCutsOneIntoConvexPieces) {
+  // Both look like an L: of width 1, with arms of length 4 and 3.
+  const auto l = [](double arm) {
+    const std::string size = std::to_string(arm);
+    return "union() { cube([" + size + ", 1, 1]); cube([1, " + size + ", 1]); }";
+  };
+  const std::string bent = "difference() { cube([4, 4, 1]); " + at(1, 1, -1, "cube(9);") + "}";
+  const std::string other = "difference() { cube([3, 3, 1]); " + at(1, 1, -1, "cube(9);") + "}";
+  const Inside inside("minkowski() {" + bent + other + "}");
+  const Inside expected("minkowski() {" + l(4) + l(3) + "}");
+  for (double x = -0.45; x < 8; x += 0.5) {
+    for (double y = -0.45; y < 8; y += 0.5) {
+      for (const double z : {-0.1, 0.1, 1.9, 2.1}) {
+        EXPECT_EQ(inside(x, y, z), expected(x, y, z)) << x << ", " << y << ", " << z;
+      }
+    }
+  }
+}
+
+TEST(SolidMinkowski, IsLeftOutOfTwoThatAreCurvedInwards) {
   const std::string ring = "rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "}";
   EXPECT_THAT(warning_of("minkowski() {" + ring + ring + "}"), HasSubstr("minkowski is left out"));
 }
@@ -387,6 +476,19 @@ TEST(SolidResize, KeepsOperationsWhoseBoxItCanFind) {
   EXPECT_FALSE(inside(6, 6, 10));
   EXPECT_TRUE(inside(2, 2, 19.9));
   EXPECT_THAT(inside.design().scene.primitives, SizeIs(2));
+}
+
+TEST(SolidResize, TakesTheBoxOfWhatOperationsLeave) {
+  // A cylinder of four corners, and what is left of it where x > 1.
+  const ImportedDesign design = import_text(
+      "resize([8, 0, 0]) { difference() { cylinder(h = 1, "
+      "r = 2, $fn = 4); " +
+      at(-9, -5, -5, "cube(10);") + "} }");
+  EXPECT_NEAR(design.view_box.max.x, 16, 1e-9);
+  const Inside inside("resize([0, 0, 6]) { intersection() { sphere(3); " +
+                      at(-5, -5, 0, "cube(10);") + "} }");
+  EXPECT_TRUE(inside(0, 0, 5.9));
+  EXPECT_TRUE(inside(2.9, 0, 0.1));
 }
 
 }  // namespace
