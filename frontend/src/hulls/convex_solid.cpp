@@ -184,10 +184,10 @@ class RoundSolid {
   bool lower_facets(ConvexSolid& result) const {
     result.is_faceted = true;
     std::vector<RoundGenerator> parts;
-    const int chords = affordable_chords();
+    const int most = affordable_chords();
     for (const RoundGenerator& generator : generators_) {
       if (generator.disc_radius > 0) {
-        replace_disc(generator, chords, parts);
+        replace_disc(generator, chords_of(generator.disc_radius, most), parts);
       } else {
         parts.push_back(generator);
       }
@@ -197,6 +197,13 @@ class RoundSolid {
     std::vector<RoundBody> balls;
     for (const RoundGenerator& part : parts) balls.push_back({part.center, part.ball_radius});
     return add_ball_hull(std::move(balls), kFacetStrip, result.pieces);
+  }
+
+  /// Chords of a disc that is smaller than the hull are as near to it as those of one that is not.
+  int chords_of(double radius, int most) const {
+    constexpr int kFewestVisible = 48;
+    const double share = std::sqrt(std::min(2 * radius / size_, 1.0));
+    return std::min(most, std::max(kFewestVisible, static_cast<int>(kChordsOfDisc * share)));
   }
 
   /// Balls at the corners of chords have frusta between them, which are primitives.
@@ -233,9 +240,81 @@ ConvexSolid faceted_solid(const Generators& generators) {
   return result;
 }
 
+bool is_disc_or_ball(const Generator& generator) {
+  return generator.has_disc() || generator.has_ball();
+}
+
+/// The hull of points.
+ConvexSolid solid_of_centers(const Generators& generators) {
+  std::vector<Vec3> points;
+  points.reserve(generators.size());
+  for (const Generator& generator : generators) points.push_back(generator.center);
+  ConvexSolid result;
+  if (auto solid = solid_of_points(points)) result.pieces.push_back(std::move(solid->primitive));
+  return result;
+}
+
+/// How far the generator reaches along a direction.
+double reach_along(const Vec3& direction, const Generator& generator) {
+  const Vec3 ball = glm::transpose(generator.ball) * direction;
+  return glm::dot(direction, generator.center) +
+         std::hypot(glm::dot(direction, generator.disc_a), glm::dot(direction, generator.disc_b)) +
+         glm::length(ball);
+}
+
+/// A point of the generator that is furthest along a direction.
+Vec3 furthest_point(const Vec3& direction, const Generator& generator) {
+  Vec3 result = generator.center;
+  const double a = glm::dot(direction, generator.disc_a);
+  const double b = glm::dot(direction, generator.disc_b);
+  const double disc = std::hypot(a, b);
+  if (disc > 0) result += a / disc * generator.disc_a + b / disc * generator.disc_b;
+  const Vec3 ball = glm::transpose(generator.ball) * direction;
+  const double length = glm::length(ball);
+  if (length > 0) result += generator.ball * (ball / length);
+  return result;
+}
+
+/// Leaves out generators within a polyhedron whose corners are points of some of them. What is
+/// round becomes many points or pieces later; of many such generators, most have no part in the
+/// hull.
+Generators without_inner_generators(const Generators& generators) {
+  constexpr size_t kMany = 12;
+  constexpr double kRoom = 0x1p-40;  // more than the rounding of the polyhedron's faces
+  const auto count = std::ranges::count_if(generators, is_disc_or_ball);
+  if (static_cast<size_t>(count) < kMany) return generators;
+  std::vector<Vec3> corners;
+  for (const Vec3& direction : spread_directions()) {
+    const Generator* furthest = nullptr;
+    double most = 0;
+    for (const Generator& generator : generators) {
+      const double reach = reach_along(direction, generator);
+      if (furthest != nullptr && reach <= most) continue;
+      furthest = &generator;
+      most = reach;
+    }
+    corners.push_back(furthest_point(direction, *furthest));
+  }
+  const std::vector<csgcore::HalfSpace> faces = faces_of(corners);
+  if (faces.empty()) return generators;
+  csgcore::Box box;
+  for (const Vec3& corner : corners) box.merge(corner);
+  const double room = kRoom * box.diagonal();
+  Generators result;
+  for (const Generator& generator : generators) {
+    const auto holds = [&](const csgcore::HalfSpace& face) {
+      return reach_along(face.normal, generator) < face.offset - room;
+    };
+    if (!std::ranges::all_of(faces, holds)) result.push_back(generator);
+  }
+  return result;
+}
+
 }  // namespace
 
-ConvexSolid convex_solid(const Generators& generators) {
+ConvexSolid convex_solid(const Generators& all) {
+  if (std::ranges::none_of(all, is_disc_or_ball)) return solid_of_centers(all);
+  const Generators generators = without_inner_generators(all);
   RoundedGenerators round = rounded(generators);
   if (round.generators.empty()) return {};
   std::optional<ConvexSolid> result = RoundSolid(std::move(round.generators)).lower();

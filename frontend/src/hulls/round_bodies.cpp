@@ -29,19 +29,6 @@ PointHull hull_of_centers(const std::vector<RoundBody>& bodies) {
   return point_hull(on_grid(centers));
 }
 
-/// Directions that are spread evenly over the sphere.
-std::vector<Vec3> spread_directions(int count) {
-  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::vector<Vec3> result;
-  for (int i = 0; i < count; ++i) {
-    const double z = (2 * i + 1.0) / count - 1;
-    const double across = std::sqrt(1 - z * z);
-    result.emplace_back(across * std::cos(golden_angle * i), across * std::sin(golden_angle * i),
-                        z);
-  }
-  return result;
-}
-
 /// How far the body reaches from its centre along a direction of unit length.
 double reach_along(const Vec3& direction, const RoundBody& body, BodyKind kind) {
   return kind == BodyKind::kBalls ? body.radius
@@ -57,26 +44,33 @@ Vec3 furthest_point(const Vec3& direction, const RoundBody& body, BodyKind kind)
 /// Leaves out bodies that lie within a polyhedron whose corners are points of some of them.
 void leave_out_inner(std::vector<RoundBody>& bodies, BodyKind kind, double size) {
   constexpr size_t kManyBodies = 64;  // to compare fewer with each other takes no longer
-  constexpr int kDirections = 128;
-  constexpr double kRoom = 0x1p-40;  // more than the rounding of the polyhedron's faces
+  constexpr double kRoom = 0x1p-40;   // more than the rounding of the polyhedron's faces
   if (bodies.size() < kManyBodies) return;
   std::vector<Vec3> corners;
-  for (const Vec3& direction : spread_directions(kDirections)) {
-    const auto reach = [&](const RoundBody& body) {
-      return glm::dot(direction, body.center) + reach_along(direction, body, kind);
-    };
-    const auto furthest = std::max_element(
-        bodies.begin(), bodies.end(),
-        [&](const RoundBody& a, const RoundBody& b) { return reach(a) < reach(b); });
+  for (const Vec3& direction : spread_directions()) {
+    const double of_radius = reach_along(direction, {Vec3(0.0), 1}, kind);
+    const RoundBody* furthest = nullptr;
+    double most = 0;
+    for (const RoundBody& body : bodies) {
+      const double reach = glm::dot(direction, body.center) + of_radius * body.radius;
+      if (furthest != nullptr && reach <= most) continue;
+      furthest = &body;
+      most = reach;
+    }
     corners.push_back(furthest_point(direction, *furthest, kind));
   }
   const std::vector<csgcore::HalfSpace> faces = faces_of(corners);
   if (faces.empty()) return;
+  std::vector<double> of_radius;  // by face
+  for (const csgcore::HalfSpace& face : faces) {
+    of_radius.push_back(reach_along(face.normal, {Vec3(0.0), 1}, kind));
+  }
   std::erase_if(bodies, [&](const RoundBody& body) {
-    return std::all_of(faces.begin(), faces.end(), [&](const csgcore::HalfSpace& face) {
-      return glm::dot(face.normal, body.center) + reach_along(face.normal, body, kind) <
-             face.offset - kRoom * size;
-    });
+    for (size_t i = 0; i < faces.size(); ++i) {
+      const double reach = glm::dot(faces[i].normal, body.center) + of_radius[i] * body.radius;
+      if (!(reach < faces[i].offset - kRoom * size)) return false;
+    }
+    return true;
   });
 }
 
@@ -143,6 +137,22 @@ void add_class(const std::vector<RoundBody>& group, RoundBodies& result) {
 }
 
 }  // namespace
+
+const std::vector<Vec3>& spread_directions() {
+  static const std::vector<Vec3> directions = [] {
+    constexpr int kCount = 128;
+    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+    std::vector<Vec3> result;
+    for (int i = 0; i < kCount; ++i) {
+      const double z = (2 * i + 1.0) / kCount - 1;
+      const double across = std::sqrt(1 - z * z);
+      result.emplace_back(across * std::cos(golden_angle * i), across * std::sin(golden_angle * i),
+                          z);
+    }
+    return result;
+  }();
+  return directions;
+}
 
 RoundBodies without_inner_bodies(std::vector<RoundBody> bodies, BodyKind kind) {
   RoundBodies result;

@@ -31,6 +31,9 @@ struct RoundBodies {
   double slack() const { return 0x1p-48 * size; }
 };
 
+/// Returns 128 directions that are spread evenly over the sphere.
+const std::vector<csgcore::Vec3>& spread_directions();
+
 enum class BodyKind : uint8_t { kBalls, kDiscs };
 
 /// Leaves out bodies that the hull of those with the same radius holds, and balls within others.
