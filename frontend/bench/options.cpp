@@ -85,7 +85,6 @@ Options parse_options(const std::vector<std::string>& words) {
   frontend::read_image_size(arguments, options.camera);
   const std::string warning = frontend::read_camera(arguments, options.camera);
   if (!warning.empty()) frontend::fail(warning, {});
-  options.import.rendering.timeout_s = frontend::read_openscad_timeout(arguments);
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
   options.evaluator =
       frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);

@@ -98,9 +98,6 @@ class Run {
       if (count == 1) not_judged_.push_back("1 " + of_one);
       if (count > 1) not_judged_.push_back(std::to_string(count) + ' ' + of_many);
     };
-    note(design.rendered_leaves,
-         "part is a mesh by openscad: whether that is the part was not judged",
-         "parts are meshes by openscad: whether these are the parts was not judged");
     note(design.left_out, "node is left out, and was not judged",
          "nodes are left out, and were not judged");
   }

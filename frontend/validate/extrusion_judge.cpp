@@ -15,12 +15,12 @@
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/importer.hpp"
+#include "openscad_facets.hpp"
 #include "ray_judge.hpp"
 #include "render/scene_scale.hpp"
-#include "rendered/rendering.hpp"
 #include "samples.hpp"
+#include "subtree_text.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/render_text.hpp"
 
 namespace validation {
 namespace {
@@ -45,10 +45,10 @@ bool has_argument(const NodeTree& tree, const Node& node, language::ArgumentName
 
 /// Returns whether OpenSCAD 2021.01 knows all that the subtree says.
 bool is_known(const NodeTree& tree, uint32_t root) {
-  if (!frontend::may_be_rendered(tree, root)) return false;
   for (uint32_t i = root; i < tree.nodes[root].end; ++i) {
     const Node& node = tree.nodes[i];
     const bool is_new =
+        node.kind == NodeKind::kRoof || node.kind == NodeKind::kFill ||
         (node.kind == NodeKind::kLinearExtrude &&
          (has_argument(tree, node, "v") || has_argument(tree, node, "segments"))) ||
         (node.kind == NodeKind::kRotateExtrude && has_argument(tree, node, "start"));
@@ -89,9 +89,9 @@ std::vector<uint32_t> turning_nodes(const NodeTree& tree) {
 /// Triangles, of which a ray sees the nearest.
 class Facets {
  public:
-  Facets(const frontend::RingedFaces& faces, double scale) {
-    for (std::size_t i = 0; i < faces.ring_ends.size(); ++i) {
-      const std::span<const uint32_t> ring = faces.ring(i);
+  Facets(const frontend::FaceSet& faces, double scale) {
+    for (std::size_t i = 0; i < faces.face_count(); ++i) {
+      const std::span<const uint32_t> ring = faces.face(i);
       for (std::size_t k = 2; k < ring.size(); ++k) {
         triangles_.push_back({scale * faces.points[ring[0]], scale * faces.points[ring[k - 1]],
                               scale * faces.points[ring[k]]});
@@ -203,11 +203,10 @@ class ExtrusionJudge {
   }
 
   void take(uint32_t node) {
-    const std::string text = frontend::subtree_text(tree_, node, options_, fonts_);
+    const std::string text = subtree_text(tree_, node, options_, fonts_);
     if (!known_.insert(text).second) return;
     if (!is_known(tree_, node)) return leave_out("OpenSCAD 2021.01 does not know all of them");
-    const frontend::OpenScadResult truth =
-        frontend::evaluate_by_openscad(text, frontend::OpenScadFormat::kOff, false, deadline_, {});
+    const OpenScadFacets truth = facets_by_openscad(text, deadline_);
     if (!truth.faces) {
       const bool is_late = Clock::now() >= deadline_;
       return leave_out(is_late ? "openscad has not finished in time (raise --time-limit)"

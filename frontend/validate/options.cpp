@@ -89,7 +89,6 @@ Options parse_options(const std::vector<std::string>& words) {
       arguments.number("time-limit", 0.0, kLongestLimit_s, settings.time_limit_s);
   settings.renderer = frontend::read_renderer(arguments);
   if (const char* error = std::getenv(kPlantedErrorVariable)) settings.planted_error = error;
-  options.import.rendering.timeout_s = frontend::read_openscad_timeout(arguments);
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
   options.evaluator =
       frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);

@@ -343,12 +343,10 @@ bool Application::take_news() {
 }
 
 void Application::take_version(frontend::DesignVersion version) {
-  const bool is_shown = state_.is_to_be_shown(version);
+  const bool is_shown = version.design != nullptr;
   const bool leaves_picture = !is_shown || version.unchanged;
   if (is_shown) tree_ = version.source.tree;
-  // What openscad renders comes as another version of the same reading.
-  const bool is_read_anew = !state_.version || state_.version->noticed != version.noticed;
-  if (options_.prints_echoes && is_read_anew) print_echoes(version);
+  if (options_.prints_echoes) print_echoes(version);
   if (is_picture_stopped_) ordered_.design.reset();
   end_hover();
   is_moving_ |= state_.version && state_.version->inputs != version.inputs;

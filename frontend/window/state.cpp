@@ -133,16 +133,8 @@ void State::begin(const frontend::Options& options) {
   *this = std::move(fresh);
 }
 
-bool State::is_to_be_shown(const frontend::DesignVersion& newest) const {
-  if (!newest.design) return false;
-  const bool is_whole = newest.design->lines_to_render.empty();
-  const bool shows_whole =
-      design && design->lines_to_render.empty() && !design->scene.primitives.empty();
-  return is_whole || !shows_whole;
-}
-
 void State::take(frontend::DesignVersion newest) {
-  if (is_to_be_shown(newest)) {
+  if (newest.design) {
     if (design != newest.design) points.clear();
     design = newest.design;
   }
@@ -312,16 +304,9 @@ struct StatusPart {
 /// The most characters of a driver's name, which may be as long as all the rest.
 constexpr size_t kShortName = 12;
 
-std::string rendering_words(const std::vector<uint32_t>& lines) {
-  std::string words = "openscad renders line " + std::to_string(lines.front());
-  if (lines.size() > 1) words += " and " + std::to_string(lines.size() - 1) + " more";
-  return words;
-}
-
 std::string size_words(const frontend::ImportedDesign& design) {
   const std::size_t primitives = design.scene.primitives.size();
-  const bool is_whole = design.left_out == 0 && design.lines_to_render.empty();
-  if (primitives == 0 && is_whole) return "the design is empty";
+  if (primitives == 0 && design.left_out == 0) return "the design is empty";
   return std::to_string(primitives) + (primitives == 1 ? " primitive" : " primitives");
 }
 
@@ -354,11 +339,7 @@ std::vector<StatusPart> status_parts(const State& state) {
                      4});
   }
   if (state.is_reading) parts.push_back({"reading", 0});
-  if (state.is_stopped) {
-    parts.push_back({kStopped, 0});
-  } else if (version.design && !version.design->lines_to_render.empty()) {
-    parts.push_back({rendering_words(version.design->lines_to_render), 0});
-  }
+  if (state.is_stopped) parts.push_back({kStopped, 0});
   return parts;
 }
 

@@ -95,9 +95,6 @@ struct State {
   /// Does a command that needs nothing but this state. Returns whether it was one.
   bool apply(Command command);
   bool is_checked(Command command) const;
-  /// Returns whether a version's design takes the place of the one that is shown. While openscad
-  /// renders a part of it, the last whole one stays.
-  bool is_to_be_shown(const frontend::DesignVersion& newest) const;
   /// Takes the newest version of the design.
   void take(frontend::DesignVersion newest);
   /// Returns whether Command::kForgetPoints does anything.

@@ -295,16 +295,9 @@ TEST_F(Validate, WhatCannotBeDrawnIsLeftOut) {
 }
 
 TEST_F(Validate, SaysWhatItDoesNotJudge) {
-  const Environment cache("XDG_CACHE_HOME", folder_ / "cache");
-  const Environment openscad("OPENSCAD",
-                             folder_.script("openscad", "cat " SCADRAY_MESH_FILES "/frame.nef3"));
-  const Outcome outcome =
-      run_few({folder_.write("a.csg",
-                             "cube(1); roof() { square(); } minkowski() { difference() { cube(1); "
-                             "sphere(0.5); } difference() { cube(1); sphere(0.5); } }")});
+  const Outcome outcome = run_few({folder_.write("a.csg", "cube(1); roof() { square(); }")});
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 part is a mesh by openscad: "),
-                                 HasSubstr("1 node is left out, and was not judged\n")));
+  EXPECT_THAT(outcome.out, HasSubstr("1 node is left out, and was not judged\n"));
 }
 
 TEST_F(Validate, ReportToStandardOutputAndQuiet) {

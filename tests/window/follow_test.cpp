@@ -59,62 +59,6 @@ TEST_F(Following, ASaveThatChangesNothing) {
   expect_shown(before);
 }
 
-/// A design with a part that openscad renders as soon as there is a file `go`.
-class FollowingRenderings : public LiveWindow {
- protected:
-  std::string open_rendered(const std::string& text) {
-    const std::string in = "'" + folder_.path() + "'";
-    ProcessSetup setup;
-    setup.environment["XDG_CACHE_HOME"] = folder_ / "cache";
-    setup.environment["OPENSCAD"] = folder_.script(
-        "openscad",
-        "while [ ! -e " + in + "/go ]; do sleep 0.01; done; cat " SCADRAY_MESH_FILES "/frame.nef3");
-    const std::string design = folder_.write("a.csg", text);
-    open(design, {"--imgsize=800,300"}, setup);
-    return design;
-  }
-  const std::string part_ =
-      "minkowski() { difference() { cube(1); sphere(0.5); } difference() { cube(1); sphere(0.5); "
-      "} }\n";
-};
-
-/// What openscad has to render is waited for beside the picture of all else.
-TEST_F(FollowingRenderings, APartAtTheStart) {
-  open_rendered(kBlock + part_);
-  const json without = next();
-  EXPECT_EQ(without["primitives"], 2);
-  EXPECT_EQ(without["messages"], json::array());
-  EXPECT_THAT(without["status"].get<std::string>(), HasSubstr("openscad renders line 7"));
-  folder_.write("go", "");
-  const json with = next_of(3);
-  EXPECT_THAT(with["status"].get<std::string>(), testing::Not(HasSubstr("openscad renders")));
-  EXPECT_EQ(with["camera"], without["camera"]);
-}
-
-/// A part that was changed leaves no hole: the last good picture stays until it is rendered.
-TEST_F(FollowingRenderings, ThePictureStaysMeanwhile) {
-  open_rendered(kBlock);
-  const json first = next();
-  const auto wait_for_status = [this](const char* words) {
-    return next([words](const json& line) {
-      return line["status"].get<std::string>().find(words) != std::string::npos;
-    });
-  };
-  folder_.write("a.csg", part_);
-  EXPECT_EQ(wait_for_status("openscad renders line 1")["primitives"], 2);
-  expect_shown(drawn(folder_.write("b.csg", kBlock), first["camera"], 800, 300),
-               free_area(800, 300));
-  key("Escape");
-  key("2");  // another picture of what is there
-  const json stopped = wait_for_status("stopped; a save, or F5, starts again");
-  EXPECT_EQ(stopped["primitives"], 2);
-  EXPECT_TRUE(wait_until([this] { return children(program().pid()) == 0; })) << "openscad runs on";
-  key("F5");
-  wait_for_status("openscad renders line 1");
-  folder_.write("go", "");
-  EXPECT_THAT(next_of(1)["status"].get<std::string>(), testing::Not(HasSubstr("openscad")));
-}
-
 /// The error is shown over the last good picture.
 constexpr Area kAboveTheError{0, 30, kWidth, 120};
 

@@ -305,26 +305,6 @@ TEST_F(StateTest, AnEmptyDesignIsCalledEmpty) {
   EXPECT_THAT(status_line(state_), testing::StartsWith("0 primitives"));
 }
 
-/// What openscad still renders of a design is not what the user wants to look at.
-TEST_F(StateTest, AWholePictureStaysWhileOpenscadRenders) {
-  const auto take = [&](const std::string& text, std::vector<uint32_t> lines_to_render) {
-    frontend::ImportedDesign design = frontend::import_design(frontend::parse(text, ""));
-    design.lines_to_render = std::move(lines_to_render);
-    frontend::DesignVersion version;
-    version.design = std::make_shared<const frontend::ImportedDesign>(std::move(design));
-    state_.take(version);
-    return state_.design == version.design;
-  };
-  const std::string rest = "sphere(r = 1);";
-  EXPECT_FALSE(take(rest, {7}));
-  EXPECT_THAT(status_line(state_), HasSubstr("openscad renders line 7"));
-  EXPECT_TRUE(take(rest + rest, {}));
-  EXPECT_FALSE(take("", {3}));
-  EXPECT_TRUE(take("", {}));
-  EXPECT_TRUE(take(rest, {7})) << "there is nothing better";
-  EXPECT_TRUE(take(rest + rest, {7})) << "neither is one whole";
-}
-
 TEST_F(StateTest, TheStatusLineSaysThatWorkWasStopped) {
   state_.is_stopped = true;
   EXPECT_THAT(status_line(state_), HasSubstr("F5"));

@@ -56,7 +56,7 @@ class DesignFollower {
   /// kReading lasts from the notice of a save until its version can be taken, kStopped from a
   /// stop() until the next reading.
   State state() const;
-  /// Returns what is being done: reading, or what openscad renders after a version was published.
+  /// Returns what is being done.
   std::optional<Activity> activity() const;
   /// Reads the design again, as after a save.
   void reload();

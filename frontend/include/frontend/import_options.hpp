@@ -1,8 +1,6 @@
-// How a design is lowered to primitives, as far as its user chooses, and what openscad may be asked
-// for where scadray has no primitives.
+// How a design is lowered to primitives, as far as its user chooses.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,25 +11,6 @@
 #include "csgcore/primitive.hpp"
 
 namespace frontend {
-
-/// How far openscad has come with a design's parts.
-struct RenderingProgress {
-  uint32_t line = 0;  // of the first part that is not finished, in the design's .csg
-  std::size_t finished = 0;
-  std::size_t parts = 0;
-};
-
-struct RenderingOptions {
-  /// The most seconds that all parts of a design may take together. 0: openscad is not asked.
-  double timeout_s = 0;
-  /// Otherwise only what was rendered before is taken, and the rest is left for later
-  /// (ImportedDesign::lines_to_render).
-  bool waits = true;
-  /// openscad gets the time that nothing else on the machine wants.
-  bool is_in_background = false;
-  /// Called about ten times a second while openscad runs; may be empty.
-  std::function<void(const RenderingProgress&)> progress{};
-};
 
 class HullPool;
 
@@ -79,8 +58,6 @@ struct ImportOptions {
   bool measures_leaves = true;
   /// Fill ImportedDesign::places.
   bool keeps_places = false;
-  /// How openscad is asked for what scadray does not draw itself; by default it is not.
-  RenderingOptions rendering{};
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
   /// The hulls of solids of the design's last version, of which those that are the same are not

@@ -27,14 +27,8 @@ struct ImportedDesign {
   /// The hulls and Minkowski sums in which facets, finer than a pixel, stand for what is round and
   /// has no exact form.
   uint32_t faceted_leaves = 0;
-  /// The leaves that openscad has rendered, and the nodes that are left out.
-  uint32_t rendered_leaves = 0;
+  /// The nodes that are left out.
   uint32_t left_out = 0;
-  /// The lines of the leaves that openscad still has to render (RenderingOptions::waits): these are
-  /// missing.
-  std::vector<uint32_t> lines_to_render;
-  /// The time that openscad took, or the search for what it has rendered before.
-  double rendering_ms = 0;
   /// By Primitive::id, as many as there are such nodes, where ImportOptions::keeps_places asks for
   /// it: the index of the node that the primitive is made of, which is a primitive node, or the
   /// root of a subtree that is one solid or figure (a hull, an extrusion, an offset).

@@ -17,7 +17,6 @@ struct RunStats {
   uint64_t leaves = 0;           // of OpenSCAD's preview
   uint64_t compound_leaves = 0;  // those of them that hold several primitives
   uint64_t faceted_leaves = 0;   // those in which facets stand for what is round
-  uint64_t rendered_leaves = 0;  // those that openscad has rendered
   uint64_t left_out = 0;         // nodes
   uint64_t layers = 0;           // that are drawn one over another; 0: the model alone
   uint32_t width_px = 0;
@@ -26,11 +25,10 @@ struct RunStats {
   double export_ms = 0;  // time that openscad took for a .scad
   double read_ms = 0;
   double parse_ms = 0;
-  double import_ms = 0;     // without the next
-  double rendering_ms = 0;  // time that openscad took for parts of the design
-  double encode_ms = 0;     // overlays and all pictures
-  double total_ms = 0;      // from the start to the last encoded picture, without drawing again to
-                            // measure the paper's times
+  double import_ms = 0;
+  double encode_ms = 0;  // overlays and all pictures
+  double total_ms = 0;   // from the start to the last encoded picture, without drawing again to
+                         // measure the paper's times
 };
 
 /// Returns the statistics as JSON. The keys are fixed; frontend/STATISTICS.md lists them.

@@ -111,12 +111,6 @@ std::vector<std::string> openscad_arguments_of(const Arguments& arguments) {
   return result;
 }
 
-double read_openscad_timeout(const Arguments& arguments) {
-  // About as long as one waits for a picture; a year is no limit.
-  constexpr double kDefault_s = 60, kLongest_s = 31536000;
-  return arguments.number("openscad-timeout", 0.0, kLongest_s, kDefault_s);
-}
-
 void read_cells_and_threads(const Arguments& arguments, RenderSettings& render) {
   render.leaf_primitives =
       arguments.number<uint32_t>("leaf-primitives", 1, UINT32_MAX, render.leaf_primitives,

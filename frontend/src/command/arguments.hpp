@@ -124,8 +124,7 @@ RendererKind read_renderer(const Arguments& arguments);
 /// Returns the options that only openscad can follow, as they are handed on to it: -D, -p, -P, -m,
 /// --hardwarnings, --check-parameters, --check-parameter-ranges.
 std::vector<std::string> openscad_arguments_of(const Arguments& arguments);
-/// Reads --openscad-timeout, in seconds; without it, returns 60.
-double read_openscad_timeout(const Arguments& arguments);
+
 /// Reads --leaf-primitives, --threshold and --threads; without them, `render` keeps its values.
 void read_cells_and_threads(const Arguments& arguments, RenderSettings& render);
 

@@ -144,12 +144,6 @@ class Run {
     DesignFileOptions reading;
     reading.import = options_.import;
     reading.import.measures_leaves = sees_all(options_.camera);
-    reading.import.rendering.progress = [this](const RenderingProgress& progress) {
-      show_progress("openscad renders line " + std::to_string(progress.line) + ", " +
-                        std::to_string(progress.finished) + " of " +
-                        std::to_string(progress.parts) + " done",
-                    -1);
-    };
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
     reading.camera = camera_choice(options_);
@@ -181,8 +175,7 @@ class Run {
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file);
-    stats_.rendering_ms = design.rendering_ms;
-    stats_.import_ms = ms_since(import_start) - design.rendering_ms;
+    stats_.import_ms = ms_since(import_start);
     add_imported_files(design, file.files);
     imported_.insert(imported_.end(), design.files.begin(), design.files.end());
     for (const std::string& name : file.files) {
@@ -192,7 +185,6 @@ class Run {
     stats_.leaves = design.leaves;
     stats_.compound_leaves = design.compound_leaves;
     stats_.faceted_leaves = design.faceted_leaves;
-    stats_.rendered_leaves = design.rendered_leaves;
     stats_.left_out = design.left_out;
     stats_.layers = design.scene.layers.size();
     for (const Warning& warning : design.warnings) {

@@ -91,10 +91,8 @@ constexpr OptionRow kParameterSetOption{"P,P", Takes::kText, "SET",
 constexpr OptionRow kEvaluatorOption{
     "evaluator", Takes::kText, "WHO",
     "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>};
-constexpr OptionRow kTimeoutOption{
-    "openscad-timeout", Takes::kText, "SECONDS",
-    "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
-    "0: it is left out"};
+constexpr OptionRow kTimeoutOption{"openscad-timeout", Takes::kText, "SECONDS",
+                                   "without effect: what is not drawn is left out"};
 constexpr OptionRow kSkipOption{"skip-unsupported", Takes::kNothing, "",
                                 "without effect: what is not drawn is left out"};
 constexpr OptionRow kThreadsOption{"threads", Takes::kText, "N",

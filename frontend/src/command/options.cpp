@@ -351,7 +351,6 @@ Options parse_options(const std::vector<std::string>& words) {
   const std::string camera_warning = read_camera(arguments, options.camera);
   if (!camera_warning.empty()) options.warnings.push_back(camera_warning);
   read_facets(arguments, options.import);
-  options.import.rendering.timeout_s = read_openscad_timeout(arguments);
   read_render(arguments, options.render);
   read_outputs(arguments, options);
   read_tolerance(arguments, options);

@@ -9,7 +9,7 @@ namespace {
 
 /// A leaf that is not drawn may be among the others.
 uint64_t exact_leaves(const RunStats& stats) {
-  return stats.leaves - std::min(stats.leaves, stats.faceted_leaves + stats.rendered_leaves);
+  return stats.leaves - std::min(stats.leaves, stats.faceted_leaves);
 }
 
 }  // namespace
@@ -31,7 +31,6 @@ std::string to_json(const RunStats& stats) {
         {"compound", stats.compound_leaves},
         {"exact", exact_leaves(stats)},
         {"faceted", stats.faceted_leaves},
-        {"openscad", stats.rendered_leaves},
         {"left_out", stats.left_out}}},
       {"layers", stats.layers},
       {"primitives", render.primitives},
@@ -59,7 +58,6 @@ std::string to_json(const RunStats& stats) {
         {"read", stats.read_ms},
         {"parse", stats.parse_ms},
         {"import", stats.import_ms},
-        {"openscad", stats.rendering_ms},
         {"prepare", render.prepare_ms},
         {"context", render.context_ms},
         {"subdivide", render.subdivide_ms},

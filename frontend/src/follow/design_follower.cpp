@@ -203,14 +203,6 @@ class DesignFollower::Follower {
     });
   }
 
-  /// After a reading that lacks what openscad still has to render.
-  void start_rendering(DesignReading before) {
-    activity_.begin("openscad renders");
-    start([this, before = std::move(before)](const std::stop_token& stop) {
-      return render_missing(path_, file_options(), before, stop);
-    });
-  }
-
   DesignFileOptions file_options() {
     DesignFileOptions options;
     options.import = options_.import;
@@ -220,11 +212,6 @@ class DesignFollower::Follower {
     options.camera = language::CameraChoice::kWindow;
     options.cache = cache_;
     options.progress = [this](const char* stage) { activity_.update(stage); };
-    options.import.rendering.progress = [this](const RenderingProgress& progress) {
-      activity_.update("openscad renders line " + std::to_string(progress.line),
-                       static_cast<double>(progress.finished) /
-                           static_cast<double>(std::max<std::size_t>(progress.parts, 1)));
-    };
     {
       const std::lock_guard lock(mutex_);
       options.inputs = inputs_;
@@ -243,10 +230,7 @@ class DesignFollower::Follower {
   void finish_reading() {
     reading_.join();
     activity_.end();
-    DesignReading reading = result_;
-    const ImportedDesign* const design = reading.version.design.get();
-    const bool lacks_parts = design && !design->lines_to_render.empty();
-    if (!lacks_parts) turn_.finish();
+    turn_.finish();
     good_ = std::move(result_.good);
     if (!result_.watched.empty()) watched_ = std::move(result_.watched);
     DesignVersion version = std::move(result_.version);
@@ -259,7 +243,6 @@ class DesignFollower::Follower {
       if (wants_stop_) return;
       news_ = std::move(version);
     }
-    if (lacks_parts) start_rendering(std::move(reading));
     state_ = turn_.noticed() ? State::kReading : State::kIdle;
     on_news_();
   }

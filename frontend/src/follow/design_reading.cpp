@@ -48,7 +48,7 @@ std::optional<DesignTree> parse_text(const DesignText& text, DesignReading& read
                                      const std::stop_token& stop) {
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
-                              before->lines_to_render.empty() && is_same(reading.good.source, text);
+                              is_same(reading.good.source, text);
   if (reading.version.unchanged) {
     if (text.evaluation) {  // whose texts may differ
       reading.good.source = {tree_of(text, stop), text.evaluation};
@@ -65,7 +65,7 @@ void import_into(DesignReading& reading, DesignTree tree, const ImportOptions& o
                  const DesignText& text, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   auto design = std::make_shared<const ImportedDesign>(import_design(tree, options, stop));
-  reading.version.import_ms = ms_since(start) - design->rendering_ms;
+  reading.version.import_ms = ms_since(start);
   GoodVersion& good = reading.good;
   good.source = {std::move(tree), text.evaluation};
   good.design = std::move(design);
@@ -77,7 +77,6 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   DesignVersion& version = reading.version;
   DesignFileOptions file_options = options;
   file_options.wants_files = true;
-  file_options.import.rendering.waits = false;
   file_options.message = keeping_messages(version);
   // A picture without what a used file has is shown only where there is none with it.
   file_options.needs_all_files = reading.good.design && !reading.good.lacks_files;
@@ -144,27 +143,6 @@ void report_failures(const std::string& path, DesignReading& reading, const Work
   }
 }
 
-/// Imports the text of the good version again. The messages before the importer's stay.
-void render_into(DesignReading& reading, const std::string& path, const DesignFileOptions& options,
-                 const std::stop_token& stop) {
-  DesignVersion& version = reading.version;
-  version.messages.resize(version.messages.size() - version.design->warnings.size());
-  version.places.resize(std::min(version.places.size(), version.messages.size()));
-  DesignText text;
-  text.is_exported = reading.good.is_exported;
-  text.evaluation = reading.good.source.evaluation;
-  text.files = version.files;
-  ImportOptions import_options = beside(path, text, options.import);
-  import_options.rendering.is_in_background = true;
-  reading.good.design = std::make_shared<const ImportedDesign>(
-      import_design(reading.good.source.tree, import_options, stop));
-  version.design = reading.good.design;
-  version.unchanged = false;
-  for (const Warning& warning : version.design->warnings) {
-    version.messages.push_back(warning.text);
-  }
-}
-
 }  // namespace
 
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
@@ -174,13 +152,6 @@ DesignReading read_anew(const std::string& path, const DesignFileOptions& option
   reading.version.inputs = options.inputs;
   report_failures(path, reading, [&] { read_into(reading, path, options, stop); });
   report_failures(path, reading, [&] { find_parameters(reading, path); });
-  return reading;
-}
-
-DesignReading render_missing(const std::string& path, const DesignFileOptions& options,
-                             const DesignReading& before, const std::stop_token& stop) {
-  DesignReading reading = before;
-  report_failures(path, reading, [&] { render_into(reading, path, options, stop); });
   return reading;
 }
 

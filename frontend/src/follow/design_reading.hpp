@@ -33,16 +33,10 @@ struct DesignReading {
   std::vector<std::string> watched;
 };
 
-/// Reads the design. What openscad has to render of it, and has not rendered before, is missing
-/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator`, `inputs`,
-/// `openscad_arguments` and `progress`, which may be empty, are used. Every failure is reported in
-/// version.error; only Stopped (stop.hpp) is thrown.
+/// Reads the design. Of `options` only `import`, `evaluator`, `inputs`, `openscad_arguments` and
+/// `progress`, which may be empty, are used. Every failure is reported in version.error; only
+/// Stopped (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);
-
-/// Returns the good version of a reading again, with all that openscad renders of it. Throws
-/// Stopped (stop.hpp) alone.
-DesignReading render_missing(const std::string& path, const DesignFileOptions& options,
-                             const DesignReading& before, const std::stop_token& stop);
 
 }  // namespace frontend

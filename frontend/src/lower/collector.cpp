@@ -15,7 +15,6 @@
 #include "subtrees/inner_parts.hpp"
 #include "subtrees/plane_evaluation.hpp"
 #include "subtrees/plane_lowering.hpp"
-#include "subtrees/render_text.hpp"
 #include "subtrees/solid_evaluation.hpp"
 #include "subtrees/solid_lowering.hpp"
 
@@ -126,7 +125,6 @@ Collector::Collector(const DesignTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
       files(options.folder, polyhedra),
       fonts(options.font_files),
-      design_(tree),
       tree_(*tree.nodes),
       options_(options),
       hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
@@ -498,15 +496,7 @@ bool Collector::keeps_dimension(uint32_t root, int dimension) {
 void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
                                NodeProblems& told) {
   PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
-  Missing missing;
-  leaf.presence = lower_plane(subtree, context, told, leaf, missing);
-  if (!missing.nodes.empty() && !context.flattened && asks_for(subtree)) {
-    leaf.figures.clear();
-    leaf.is_plate = missing.is_of_plane;
-    leaf.presence = ask_for(leaf.node, missing.is_of_plane, missing.nodes.front().why, context);
-  } else {
-    for (const Missing::Node& node : missing.nodes) leave_out(node.node, std::string(node.why));
-  }
+  leaf.presence = lower_plane(subtree, context, told, leaf);
   plane_leaves.push_back(std::move(leaf));
 }
 
@@ -530,13 +520,11 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
   }
 }
 
-/// Adds nodes to `missing` that are not lowered; the rest is, as if they were not there.
+/// Leaves nodes out that are not lowered; the rest is, as if they were not there.
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
-                                NodeProblems& told, PlaneLeaf& leaf, Missing& missing) {
+                                NodeProblems& told, PlaneLeaf& leaf) {
   const uint32_t root = subtree.root();
-  const auto miss = [&](uint32_t node, std::string_view why) {
-    missing.nodes.push_back({node, why});
-  };
+  const auto miss = [&](uint32_t node, std::string_view why) { leave_out(node, std::string(why)); };
   PlaneEvaluation evaluation(
       subtree, told, miss, [&](const PlaneEvaluation& planes, uint32_t node) {
         SolidEvaluation solids(subtree, planes, options_, {polyhedra, files}, figure_solids_, told);
@@ -544,12 +532,9 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
         if (!result) miss(node, solids.failure());
         return result;
       });
-  missing.is_of_plane = !evaluation.is_solid() && !subtree.row(root).is_extrusion();
-  const auto is_put_off = [&] { return !missing.nodes.empty() && asks_for(subtree); };
-  if (is_put_off()) return Presence::kLeftOut;
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
-  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told, missing);
+  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
   const bool is_rendered = options_.picture == PictureKind::kRendered;
   const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
@@ -559,42 +544,21 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
     const std::span<const Figure> figures = evaluation.figures(root);
     leaf.figures.assign(figures.begin(), figures.end());
   }
-  if (is_put_off()) return Presence::kLeftOut;
   return take_lowered(std::move(lowered), context, leaf);
 }
 
 Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                                    const Context& context, NodeProblems& told, Missing& missing) {
+                                    const Context& context, NodeProblems& told) {
   const uint32_t root = subtree.root();
   SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files}, figure_solids_, told);
   std::optional<SolidValue> value = solids.run();
   if (!value) {
-    missing.nodes.push_back({root, solids.failure()});
+    leave_out(root, std::string(solids.failure()));
     return Presence::kLeftOut;
   }
   if (value->is_empty()) return Presence::kEmpty;
   pending_.push_back({root, context.frame, frames[context.frame].to_world, subtree.id(root),
                       primitives.size(), std::move(*value)});
-  pending_contexts_.push_back(context);
-  return Presence::kSolid;
-}
-
-bool Collector::asks_for(const PlaneSubtree& subtree) const {
-  return options_.rendering.timeout_s > 0 && may_be_rendered(tree_, subtree.root());
-}
-
-/// Puts off the subtree until openscad has rendered it.
-Presence Collector::ask_for(uint32_t root, bool is_plane, std::string_view why,
-                            const Context& context) {
-  RenderRequest request = render_request(tree_, root, is_plane, options_, fonts.files());
-  request.line = design_.location_of(tree_.nodes[root].place).line;
-  pending_.push_back({root,
-                      context.frame,
-                      frames[context.frame].to_world,
-                      ids_[root],
-                      primitives.size(),
-                      {},
-                      PendingRendering{std::move(request), is_plane, why}});
   pending_contexts_.push_back(context);
   return Presence::kSolid;
 }
@@ -605,7 +569,6 @@ void Collector::add_pending(const std::stop_token& stop) {
   std::vector<LoweredSubtree> lowered = lower_all(pending_, *hulls_, stop);
   hulls_->end_version();
   if (pending_.empty()) return;
-  const std::vector<Rendering> renderings = render_pending(stop);
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
   std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
@@ -626,17 +589,14 @@ void Collector::add_pending(const std::stop_token& stop) {
       fragments.push_back(old_fragments[i]);
     }
   };
-  size_t done = 0, rendered = 0;
+  size_t done = 0;
   std::vector<PlaneLeaf> leaves;
   for (size_t i = 0; i < pending_.size(); ++i) {
     add_old(done, pending_[i].primitives_before);
     done = pending_[i].primitives_before;
     PlaneLeaf& leaf = leaves.emplace_back(
         PlaneLeaf{pending_[i].node, pending_[i].frame, Presence::kEmpty, {}, {}, false});
-    leaf.presence =
-        pending_[i].rendering
-            ? take_rendering(pending_[i], renderings[rendered++], pending_contexts_[i], leaf)
-            : take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
+    leaf.presence = take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
   }
   add_old(done, old_primitives.size());
   for (uint32_t& primitive : primitive_of) {
@@ -651,45 +611,6 @@ void Collector::add_pending(const std::stop_token& stop) {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });
     }
   }
-}
-
-/// Returns the renderings of those that have a request, in their order.
-std::vector<Rendering> Collector::render_pending(const std::stop_token& stop) {
-  std::vector<RenderRequest> requests;
-  for (const PendingSolid& solid : pending_) {
-    if (solid.rendering) requests.push_back(solid.rendering->request);
-  }
-  if (requests.empty()) return {};
-  const Clock::time_point start = Clock::now();
-  std::vector<Rendering> renderings = render_all(requests, options_.rendering, stop);
-  rendering_ms = ms_since(start);
-  return renderings;
-}
-
-Presence Collector::take_rendering(const PendingSolid& pending, const Rendering& rendering,
-                                   const Context& context, PlaneLeaf& leaf) {
-  if (!rendering.faces && rendering.problem.empty()) {
-    lines_to_render.push_back(pending.rendering->request.line);
-    left_out.push_back(pending.node);
-    return Presence::kLeftOut;
-  }
-  if (!rendering.faces) {
-    leave_out(pending.node, std::string(pending.rendering->why) + "; " + rendering.problem);
-    return Presence::kLeftOut;
-  }
-  leaf.is_rendered = true;
-  if (!pending.rendering->is_plane) {
-    return take_lowered(lower_rendered_solid(*rendering.faces, pending.to_world, pending.frame,
-                                             pending.id, polyhedra),
-                        context, leaf);
-  }
-  const std::optional<Figure> figure = rendered_figure(*rendering.faces);
-  if (!figure) return Presence::kEmpty;
-  const bool is_final = options_.picture == PictureKind::kRendered;
-  if (is_final) leaf.figures.push_back(*figure);
-  return take_lowered(lower_figure(*figure, is_final ? Plate::kFlat : Plate::kPreview, pending.id,
-                                   pending.frame, frames, figure_solids_),
-                      context, leaf);
 }
 
 Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {

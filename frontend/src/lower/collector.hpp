@@ -74,7 +74,6 @@ class Collector {
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
     uint8_t inner_modifiers = 0;              // of a part inside of another one (InnerPart)
-    bool is_rendered = false;                 // by openscad
     /// Its operations count as those of the tree around it, which tells cut faces from others.
     bool keeps_operations = false;
   };
@@ -83,10 +82,8 @@ class Collector {
   const PlaneLeaf* plane_leaf(uint32_t node) const;
   NodeRange selected;  // what `!` leaves
   // After finish():
-  /// Nodes that are missing: those among the problems, and those that openscad has still to render.
+  /// Nodes that are missing, which are among the problems.
   std::vector<uint32_t> left_out;
-  std::vector<uint32_t> lines_to_render;
-  double rendering_ms = 0;
 
  private:
   /// What a node hands down to its children.
@@ -133,29 +130,14 @@ class Collector {
   /// empty, with a warning.
   bool keeps_dimension(uint32_t root, int dimension);
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
-  /// The nodes of a 2D subtree that are not lowered.
-  struct Missing {
-    struct Node {
-      uint32_t node;
-      std::string_view why;
-    };
-    std::vector<Node> nodes;
-    bool is_of_plane = false;  // the root is a plane figure
-  };
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
-                       PlaneLeaf& leaf, Missing& missing);
-  Presence ask_for(uint32_t root, bool is_plane, std::string_view why, const Context& context);
-  bool asks_for(const PlaneSubtree& subtree) const;
+                       PlaneLeaf& leaf);
   void add_inner_parts(const PlaneSubtree& subtree, const Context& context);
   Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                           const Context& context, NodeProblems& told, Missing& missing);
+                           const Context& context, NodeProblems& told);
   void add_pending(const std::stop_token& stop);
-  std::vector<Rendering> render_pending(const std::stop_token& stop);
-  Presence take_rendering(const PendingSolid& pending, const Rendering& rendering,
-                          const Context& context, PlaneLeaf& leaf);
   Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
 
-  const DesignTree& design_;
   const NodeTree& tree_;
   const ImportOptions& options_;
   std::vector<Context> contexts_;

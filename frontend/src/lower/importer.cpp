@@ -335,13 +335,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   design.faceted_leaves = static_cast<uint32_t>(
       std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
                     [](const Collector::PlaneLeaf& leaf) { return leaf.is_faceted; }));
-  design.rendered_leaves = static_cast<uint32_t>(
-      std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
-                    [](const Collector::PlaneLeaf& leaf) { return leaf.is_rendered; }));
-  design.left_out =
-      static_cast<uint32_t>(collected.left_out.size() - collected.lines_to_render.size());
-  design.lines_to_render = std::move(collected.lines_to_render);
-  design.rendering_ms = collected.rendering_ms;
+  design.left_out = static_cast<uint32_t>(collected.left_out.size());
   const bool decides = needs_layers(collected, options.picture);
   LeafBoxes boxes = boxes_of_leaves(collected, leaves, options.measures_leaves, decides);
   if (!collected.plane_leaves.empty()) {

@@ -227,11 +227,9 @@ class NefText {
 
 }  // namespace
 
-std::optional<RingedFaces> read_nef_text(std::string_view text) { return NefText(text).read(); }
-
 SolidFile read_nef3(std::string_view bytes, const std::string& name) {
   SolidFile file;
-  if (std::optional<RingedFaces> faces = read_nef_text(bytes)) {
+  if (std::optional<RingedFaces> faces = NefText(bytes).read()) {
     file.faces = face_set_of(std::move(*faces));
   } else {
     file.problem = "Failure trying to import '" + name + "'";

@@ -1,7 +1,6 @@
 // The files of solids that OpenSCAD's import() reads.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,13 +28,9 @@ SolidFile read_amf(std::string_view bytes, const std::string& name);
 /// 3MF: every mesh once. Its build items, transformations and units are ignored, as by OpenSCAD
 /// 2021.01.
 SolidFile read_3mf(std::string_view bytes, const std::string& name);
-/// NEF3, the text of a Nef polyhedron (read_nef_text()).
+/// NEF3, the text that CGAL writes of a Nef polyhedron: the faces that have it on one side, seen
+/// from the other. The coordinates in the text are fractions of whole numbers of any length; the
+/// results are within a rounding of them, or two. Sheets and lines without thickness are left out.
 SolidFile read_nef3(std::string_view bytes, const std::string& name);
-
-/// Returns the boundary of a Nef polyhedron, of the text that CGAL writes: the faces that have it
-/// on one side, seen from the other. The coordinates in the text are fractions of whole numbers of
-/// any length; the results are within a rounding of them, or two. Sheets and lines without
-/// thickness are left out. Nothing if the text is damaged.
-std::optional<RingedFaces> read_nef_text(std::string_view text);
 
 }  // namespace frontend

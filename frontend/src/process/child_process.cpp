@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
@@ -42,8 +41,6 @@ ChildProcess::ChildProcess(const ChildSetup& setup) {
   const HoldInterrupts hold;
   pid_ = group_ = spawn(setup.command, files, 0, hold);
   interrupt_.set(group_);
-  constexpr int kLeastPriority = 19;
-  if (setup.is_in_background) setpriority(PRIO_PGRP, static_cast<id_t>(group_), kLeastPriority);
   try {
     guard_ = spawn({"/bin/sh", "-c", "read end; kill -KILL 0"}, guard_files, group_, hold);
   } catch (...) {

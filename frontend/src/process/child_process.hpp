@@ -43,7 +43,6 @@ struct ChildSetup {
   int errors = -1;                   // its standard error
   int kept = -1;                     // one more descriptor that it inherits, with the same number;
                                      // -1: none
-  bool is_in_background = false;     // it gets the processors that nothing else wants
   int input = -1;                    // its standard input; -1: empty
 };
 

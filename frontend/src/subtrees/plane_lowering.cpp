@@ -80,18 +80,6 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
   return result;
 }
 
-LoweredSubtree lower_figure(const Figure& figure, Plate plate, uint32_t id, uint32_t frame,
-                            FrameTree& frames, FigureSolids& solids) {
-  FigureTree figures;
-  figures.figures.push_back({std::make_shared<const Figure>(figure), {}, frame, id});
-  CsgTreeBuilder builder;
-  builder.primitive(0);
-  figures.tree = builder.finish();
-  const double thickness = plate == Plate::kFlat ? flat_thickness(figures) : kPlateThickness;
-  return extrude(figures, {-thickness / 2, thickness / 2, 1}, true, frames[frame].to_world, frames,
-                 solids);
-}
-
 void thicken_plate(Primitive& part, const Affine& frame_to_world) {
   Affine to_frame;
   to_frame.linear = csgcore::inverse(frame_to_world.linear);

@@ -30,10 +30,6 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
                              uint32_t frame, FrameTree& frames, FigureSolids& solids,
                              NodeProblems& problems);
 
-/// The plate of a figure that stands in that frame, as one primitive with that id.
-LoweredSubtree lower_figure(const Figure& figure, Plate plate, uint32_t id, uint32_t frame,
-                            FrameTree& frames, FigureSolids& solids);
-
 /// Makes a part of a plate that stands in that frame as thick as one that is subtracted.
 void thicken_plate(csgcore::Primitive& part, const csgcore::Affine& frame_to_world);
 

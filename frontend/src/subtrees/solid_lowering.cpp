@@ -8,10 +8,7 @@
 #include <vector>
 
 #include "csgcore/stop_scope.hpp"
-#include "plane/outlines.hpp"
-#include "solids/faceted_box.hpp"
 #include "solids/leaves.hpp"
-#include "subtrees/render_text.hpp"
 
 namespace frontend {
 namespace {
@@ -66,7 +63,6 @@ std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, 
     const csgcore::StopScope scope(&stop);
     for (size_t i = begin; i < end; ++i) {
       const PendingSolid& solid = pending[i];
-      if (solid.rendering) continue;
       result[i] = lower_solid(solid.value, solid.to_world, solid.frame, solid.id, hulls);
     }
   };
@@ -79,36 +75,6 @@ std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, 
                       [&](const auto& range) { lower(range.begin(), range.end()); });
   }
   return result;
-}
-
-LoweredSubtree lower_rendered_solid(const RingedFaces& faces, const csgcore::Affine& to_world,
-                                    uint32_t frame, uint32_t id, PolyhedronPool& polyhedra) {
-  LoweredSubtree result;
-  FaceSet set = face_set_of(faces);
-  for (csgcore::Vec3& point : set.points) point /= kRenderScale;
-  uint64_t unfinite_faces = 0;  // none: the points are finite
-  const SolidOfFaces& solid = polyhedra.solid(std::move(set), unfinite_faces);
-  if (solid.is_empty()) return result;
-  csgcore::Primitive primitive = solid.under(to_world);
-  primitive.id = id;
-  const csgcore::Box box = faceted_box(primitive, {});
-  result.parts.push_back({std::move(primitive), frame, box});
-  csgcore::CsgTreeBuilder builder;
-  builder.primitive(0);
-  result.solid = builder.finish();
-  return result;
-}
-
-std::optional<Figure> rendered_figure(const RingedFaces& faces) {
-  const auto is_at_bottom = [&](uint32_t corner) { return faces.points[corner].z == 0; };
-  Polygons polygons;
-  for (size_t i = 0; i < faces.ring_ends.size(); ++i) {
-    const std::span<const uint32_t> ring = faces.ring(i);
-    if (!std::ranges::all_of(ring, is_at_bottom)) continue;
-    Polygon& polygon = polygons.emplace_back();
-    for (const uint32_t corner : ring) polygon.emplace_back(faces.points[corner]);
-  }
-  return cleaned(outline_of(std::move(polygons)));
 }
 
 }  // namespace frontend

@@ -409,7 +409,8 @@ TEST(Options, Facets) {
 }
 
 TEST(Options, OtherFlags) {
-  const Options options = parse_drawing({"--skip-unsupported", "-q", "--info", "--stats=s.json"});
+  const Options options = parse_drawing(
+      {"--skip-unsupported", "--openscad-timeout=0", "-q", "--info", "--stats=s.json"});
   EXPECT_THAT(options.warnings, IsEmpty());
   EXPECT_TRUE(options.quiet);
   EXPECT_TRUE(options.info);

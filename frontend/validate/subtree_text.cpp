@@ -1,6 +1,4 @@
-#include "subtrees/render_text.hpp"
-
-#include <sys/stat.h>
+#include "subtree_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,16 +7,20 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "subtrees/node_row.hpp"
-#include "subtrees/render_facets.hpp"
 
-namespace frontend {
+namespace validation {
 namespace {
 
-/// Far outside of every solid.
-constexpr std::string_view kElsewhere =
-    "multmatrix([[1,0,0,1e15],[0,1,0,0],[0,0,1,0],[0,0,0,1]])cube(1);";
+using frontend::ArgumentValue;
+using frontend::ImportOptions;
+using frontend::Node;
+using frontend::NodeKind;
+using frontend::NodeTree;
+using frontend::ValueKind;
+using frontend::ValueList;
 
 std::string number_text(double number) {
   if (std::isnan(number)) return "(0/0)";
@@ -37,9 +39,6 @@ std::string string_literal(std::string_view text) {
   return result + '"';
 }
 
-/// Returns whether it makes a solid in coordinates that no other node of the text moves.
-bool is_solid_leaf(NodeKind kind) { return row_of(kind).dimension == 3; }
-
 std::string matrix_text(const csgcore::Affine& map) {
   std::string text = "multmatrix([";
   for (int row = 0; row < 3; ++row) {
@@ -50,18 +49,13 @@ std::string matrix_text(const csgcore::Affine& map) {
   return text + "[0,0,0,1]])";
 }
 
-class RenderText {
+class SubtreeText {
  public:
-  RenderText(const NodeTree& tree, uint32_t root, const ImportOptions& options)
-      : tree_(tree),
-        root_(root),
-        options_(options),
-        fragments_(render_fragments(tree, root, options)) {}
+  SubtreeText(const NodeTree& tree, uint32_t root, const ImportOptions& options)
+      : tree_(tree), root_(root), options_(options) {}
 
-  /// Solids are scaled by kRenderScale if `is_scaled`.
-  void write(bool is_scaled) {
+  void write() {
     const uint32_t end = tree_.nodes[root_].end;
-    if (!is_scaled) unscaled_until_ = end;
     std::vector<uint32_t> open;
     for (uint32_t i = root_; i < end;) {
       for (; !open.empty() && open.back() <= i; open.pop_back()) text_ += '}';
@@ -84,24 +78,13 @@ class RenderText {
 
   bool has_text() const { return has_text_; }
   std::string take_text() { return std::move(text_); }
-  std::string take_inputs() { return std::move(inputs_); }
 
  private:
-  bool is_scaled(uint32_t index) const { return index >= unscaled_until_; }
-
   void write_node(uint32_t index) {
     const Node& node = tree_.nodes[index];
     has_text_ = has_text_ || node.kind == NodeKind::kText;
-    if (is_scaled(index) && is_solid_leaf(node.kind)) {
-      csgcore::Affine larger;
-      larger.linear = csgcore::Mat3(kRenderScale);
-      text_ += matrix_text(larger);
-      unscaled_until_ = node.end;
-      write_call(index);
-    } else if (node.kind == NodeKind::kMultmatrix) {
+    if (node.kind == NodeKind::kMultmatrix) {
       write_matrix(index);
-    } else if (node.kind == NodeKind::kResize) {
-      write_resize(index);
     } else if (node.kind == NodeKind::kColor) {
       text_ += "group()";
     } else {
@@ -110,34 +93,19 @@ class RenderText {
   }
 
   void write_matrix(uint32_t index) {
-    NodeProblems told;  // when the node was taken
-    NodeReader reader(tree_, tree_.nodes[index], told);
-    const auto file = std::get<FileMatrix>(read_node(reader, {options_, fonts_}));
+    frontend::NodeProblems told;  // when the node was taken
+    frontend::NodeReader reader(tree_, tree_.nodes[index], told);
+    const auto file = std::get<frontend::FileMatrix>(read_node(reader, {options_, fonts_}));
     if (!is_affine(file)) {  // nothing is left
       text_ += "multmatrix([[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]])";
       return;
     }
-    csgcore::Affine map = heal(file).map;
-    if (is_scaled(index)) map.translation *= kRenderScale;
-    text_ += matrix_text(map);
-  }
-
-  void write_resize(uint32_t index) {
-    NodeProblems told;  // when the node was taken
-    NodeReader reader(tree_, tree_.nodes[index], told);
-    const auto resize = std::get<ResizeArguments>(read_node(reader, {options_, fonts_}));
-    std::string sizes, follows;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double size = resize.size[axis] * (is_scaled(index) ? kRenderScale : 1);
-      sizes += number_text(size) + ',';
-      follows += resize.follows[axis] ? "true," : "false,";
-    }
-    text_ += "resize(newsize=[" + sizes + "],auto=[" + follows + "])";
+    text_ += matrix_text(heal(file).map);
   }
 
   void write_call(uint32_t index) {
     const Node& node = tree_.nodes[index];
-    const double fn = fragments_[index - root_];
+    const double fn = is_round(node.kind) ? options_.fn.value_or(0) : 0;
     text_ += std::string(name_of(node.kind)) + '(';
     for (const language::NodeArgument& argument : tree_.arguments_of(node)) {
       const std::string_view name = argument.name.text();
@@ -160,6 +128,20 @@ class RenderText {
     text_ += ')';
   }
 
+  static bool is_round(NodeKind kind) {
+    switch (kind) {
+      case NodeKind::kSphere:
+      case NodeKind::kCylinder:
+      case NodeKind::kCircle:
+      case NodeKind::kRotateExtrude:
+      case NodeKind::kOffset:
+      case NodeKind::kText:
+        return true;
+      default:
+        return false;
+    }
+  }
+
   static bool names_file(NodeKind kind, const language::NodeArgument& argument) {
     if (!argument.value.is_string()) return false;
     const bool may_be_unnamed = kind == NodeKind::kImport || kind == NodeKind::kSurface;
@@ -176,10 +158,6 @@ class RenderText {
         std::filesystem::absolute(std::filesystem::path(options_.folder) / name, failed)
             .lexically_normal();
     text_ += string_literal(path.string());
-    struct stat status {};
-    if (stat(path.c_str(), &status) != 0) status = {};
-    inputs_ += std::to_string(status.st_size) + ' ' + std::to_string(status.st_mtim.tv_sec) + '.' +
-               std::to_string(status.st_mtim.tv_nsec) + ';';
   }
 
   /// Does not recurse: lists may be nested deeply.
@@ -227,11 +205,9 @@ class RenderText {
   const NodeTree& tree_;
   const uint32_t root_;
   const ImportOptions& options_;
-  DesignFonts fonts_{{}};  // which no node that is read here has
-  const std::vector<double> fragments_;
-  uint32_t unscaled_until_ = 0;  // nodes before this one are not scaled
+  frontend::DesignFonts fonts_{{}};  // which no node that is read here has
   bool has_text_ = false;
-  std::string text_, inputs_;
+  std::string text_;
 };
 
 /// Returns the lines that make fonts of files known.
@@ -247,32 +223,11 @@ std::string font_lines(const std::vector<std::string>& fonts) {
 
 }  // namespace
 
-bool may_be_rendered(const NodeTree& tree, uint32_t root) {
-  const auto begin = tree.nodes.begin();
-  return std::none_of(begin + root, begin + tree.nodes[root].end, [](const Node& node) {
-    return node.kind == NodeKind::kRoof || node.kind == NodeKind::kFill;
-  });
-}
-
-RenderRequest render_request(const NodeTree& tree, uint32_t root, bool is_plane,
-                             const ImportOptions& options, const std::vector<std::string>& fonts) {
-  RenderText body(tree, root, options);
-  body.write(!is_plane);
-  RenderRequest request;
-  if (body.has_text()) request.text = font_lines(fonts);
-  // What is subtracted changes nothing, but makes openscad compute with exact numbers.
-  request.text += "difference(){";
-  request.text += is_plane ? "linear_extrude(height=1){" : "union(){";
-  request.text += body.take_text() + '}' + std::string(kElsewhere) + "}\n";
-  request.inputs = body.take_inputs();
-  return request;
-}
-
 std::string subtree_text(const NodeTree& tree, uint32_t root, const ImportOptions& options,
                          const std::vector<std::string>& fonts) {
-  RenderText body(tree, root, options);
-  body.write(false);
+  SubtreeText body(tree, root, options);
+  body.write();
   return (body.has_text() ? font_lines(fonts) : "") + body.take_text();
 }
 
-}  // namespace frontend
+}  // namespace validation
