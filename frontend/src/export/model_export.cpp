@@ -147,7 +147,7 @@ void ModelExport::find_operands() {
     const csgcore::StopScope scope(stop);
     csgcore::stop_point();
     const uint32_t primitive = used[i];
-    operands_[primitive] = triangles_of(scene.primitives[primitive], kChordsOfCircle);
+    operands_[primitive] = triangles_of(scene.primitives[primitive]);
     is_open[primitive] = csgcore::open_edges(operands_[primitive]) > 0;
   });
   if (used.size() == 1 && is_open[used.front()]) {

@@ -112,7 +112,7 @@ std::vector<Figure> section_of_primitive(const Primitive& primitive, bool& has_o
     has_open_mesh = true;
     return {};
   }
-  csgcore::TriangleSet triangles = triangles_of(primitive, kChordsOfCircle);
+  csgcore::TriangleSet triangles = triangles_of(primitive);
   put_in_plane(triangles);
   return section_of(triangles);
 }

@@ -212,8 +212,8 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
     }
   }
   const bool is_open = primitive.mesh() && !primitive.mesh()->is_closed();
-  std::optional<Figure> shadow = shadow_of(triangles_of(primitive, kChordsOfCircle),
-                                           is_open ? Boundary::kOpen : Boundary::kClosed);
+  std::optional<Figure> shadow =
+      shadow_of(triangles_of(primitive), is_open ? Boundary::kOpen : Boundary::kClosed);
   if (!shadow) {
     fail(kBecauseShadowCrosses);
     return {};

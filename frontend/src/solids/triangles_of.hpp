@@ -5,13 +5,15 @@
 
 #include "csgcore/boundary_mesh.hpp"
 #include "csgcore/primitive.hpp"
+#include "plane/figure.hpp"
 
 namespace frontend {
 
 /// Returns the closed boundary of the primitive under its matrix, with that many chords for a whole
 /// circle. The shape is valid, and an extrusion's scale is not 0 at its bottom; a mesh is closed
 /// only if it is closed itself.
-csgcore::TriangleSet triangles_of(const csgcore::Primitive& primitive, int chords);
+csgcore::TriangleSet triangles_of(const csgcore::Primitive& primitive,
+                                  int chords = kChordsOfCircle);
 
 /// Returns the hull of the points; no triangles if it has no volume. All coordinates are finite.
 csgcore::TriangleSet triangles_of_hull(std::vector<csgcore::Vec3> points);

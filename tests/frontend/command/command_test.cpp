@@ -336,10 +336,10 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
   EXPECT_THAT(keys(json["leaves"]), ElementsAre("dropped", "empty", "full", "general", "given_up",
                                                 "pair", "total", "union"));
   EXPECT_THAT(keys(json["times_ms"]),
-              ElementsAre("context", "cull", "encode", "export", "import", "openscad", "parse",
-                          "prepare", "read", "render", "subdivide", "total", "trace", "traverse"));
+              ElementsAre("context", "cull", "encode", "export", "import", "parse", "prepare",
+                          "read", "render", "subdivide", "total", "trace", "traverse"));
   EXPECT_THAT(keys(json["design_leaves"]),
-              ElementsAre("compound", "exact", "faceted", "left_out", "openscad", "total"));
+              ElementsAre("compound", "exact", "faceted", "left_out", "total"));
   EXPECT_THAT(keys(json["paper_ms"]), ElementsAre("S", "S_R", "T_R", "T_S"));
 }
 
