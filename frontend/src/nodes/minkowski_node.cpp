@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "solids/solid_sums.hpp"
@@ -24,12 +24,30 @@ std::optional<std::vector<Figure>> sum_of_figures(PlaneEvaluation& planes, uint3
   return sum;
 }
 
-std::vector<SolidPart> sum(SolidEvaluation& solids, std::vector<SolidPart> a,
-                           std::vector<SolidPart> b) {
-  SolidSums sums;
-  sums.add(std::move(a), std::move(b));
-  if (!sums.failure().empty()) solids.fail(sums.failure());
-  return sums.take();
+/// The sum of solids, or why there is none.
+struct SolidSum {
+  std::vector<SolidPart> parts;
+  std::string_view failure;
+};
+
+SolidSum sum_of(SolidEvaluation& solids, const std::vector<SolidValue>& operands, int chords) {
+  SolidSum result;
+  for (const SolidValue& operand : operands) {
+    std::vector<SolidPart> parts = solids.united(operand, chords);
+    if (!solids.failure().empty()) return {};
+    // OpenSCAD ignores what is empty.
+    if (parts.empty()) continue;
+    if (result.parts.empty()) {
+      result.parts = std::move(parts);
+      continue;
+    }
+    SolidSums sums(chords);
+    sums.add(std::move(result.parts), std::move(parts));
+    result = {sums.take(), sums.failure()};
+    // As in OpenSCAD, nothing is left where a sum is flat, whatever comes after it.
+    if (result.parts.empty() || !result.failure.empty()) break;
+  }
+  return result;
 }
 
 SolidValue sum_of_solids(SolidEvaluation& solids, uint32_t node) {
@@ -37,21 +55,14 @@ SolidValue sum_of_solids(SolidEvaluation& solids, uint32_t node) {
   std::erase_if(all, [](const SolidValue& value) { return value.is_empty(); });
   if (all.empty()) return {};
   if (all.size() == 1) return std::move(all.front());
-  std::vector<SolidPart> result;
-  for (const SolidValue& operand : all) {
-    // OpenSCAD ignores what is empty.
-    std::vector<SolidPart> parts = solids.united(operand);
-    if (!solids.failure().empty()) return {};
-    if (parts.empty()) continue;
-    if (result.empty()) {
-      result = std::move(parts);
-      continue;
-    }
-    // As in OpenSCAD, nothing is left where a sum is flat, whatever comes after it.
-    result = sum(solids, std::move(result), std::move(parts));
-    if (result.empty()) return {};
+  // Curved solids that are not convex are added in few facets where many take too long.
+  SolidSum result;
+  for (const int chords : {kChordsOfCutDisc, kChordsOfCutDisc / 3}) {
+    result = sum_of(solids, all, chords);
+    if (result.failure.empty()) return union_of(std::move(result.parts));
   }
-  return union_of(std::move(result));
+  solids.fail(result.failure);
+  return {};
 }
 
 }  // namespace

@@ -70,11 +70,14 @@ std::optional<std::vector<Figure>> resized(PlaneEvaluation& planes, uint32_t nod
   return planes.moved(std::move(figures), node);
 }
 
+/// What is round has OpenSCAD's chords.
+constexpr int kChordsOfOpenScad = 0;
+
 SolidValue resized(SolidEvaluation& solids, uint32_t node) {
   SolidValue result = combined(csgcore::Op::kUnion, solids.operands(node));
   if (result.is_empty()) return {};
   csgcore::Box box;
-  for (const SolidPart& part : solids.united(result, Fineness::kOpenScad)) box.merge(part.box);
+  for (const SolidPart& part : solids.united(result, kChordsOfOpenScad)) box.merge(part.box);
   if (box.empty()) return {};
   const csgcore::Vec3 factors = factors_of(solids.data<ResizeArguments>(node), box.size(), 3);
   csgcore::Affine map;

@@ -22,7 +22,7 @@ using csgcore::Vec3;
 /// Triangles of what is cut, over all cuts: so many take about two seconds.
 constexpr size_t kMostCutTriangles = size_t{1} << 18;
 /// Surfaces of more edges that turn inwards are curved, and never end in few pieces.
-constexpr size_t kMostReflexEdges = 2000;
+constexpr size_t kMostReflexEdges = 250;
 
 csgcore::CsgTree tree_of_two(Op op) {
   csgcore::CsgTreeBuilder builder;

@@ -68,19 +68,9 @@ bool is_straight_extrusion(const Primitive& primitive) {
   return extrusion && extrusion->scale_bottom == extrusion->scale_top;
 }
 
-/// Returns the part with facets for what is round and not convex.
-SolidPart as_mesh(SolidPart part) {
-  if (part.is_convex() || part.primitive->mesh()) return part;
-  const Box box = part.box;
-  csgcore::TriangleSet surface = triangles_of(*part.primitive, kChordsOfCutDisc);
-  SolidPart result = part_of(std::move(surface), true);
-  result.box = box;
-  return result;
-}
-
 /// Returns the boundary of a closed mesh, which turns outwards and does not cross itself.
 csgcore::TriangleSet surface_of(const SolidPart& mesh) {
-  const csgcore::TriangleSet triangles = triangles_of(*mesh.primitive, kChordsOfCutDisc);
+  const csgcore::TriangleSet triangles = triangles_of(*mesh.primitive);
   csgcore::CsgTreeBuilder builder;
   builder.primitive(0);
   csgcore::TriangleSet result = csgcore::boundary_mesh(std::span(&triangles, 1), builder.finish());
@@ -141,6 +131,16 @@ void stretch(const Vec3& lower, const Vec3& upper, Primitive& primitive) {
 
 void SolidSums::fail(std::string_view why) {
   if (failure_.empty()) failure_ = why;
+}
+
+/// Returns the part with facets for what is round and not convex.
+SolidPart SolidSums::as_mesh(SolidPart part) const {
+  if (part.is_convex() || part.primitive->mesh()) return part;
+  const Box box = part.box;
+  csgcore::TriangleSet surface = triangles_of(*part.primitive, chords_);
+  SolidPart result = part_of(std::move(surface), true);
+  result.box = box;
+  return result;
 }
 
 void SolidSums::add(std::vector<SolidPart> a, std::vector<SolidPart> b) {
@@ -236,7 +236,9 @@ void SolidSums::add_mesh(const SolidPart& part, const SolidPart& convex, const B
 /// of the sum meets no face lies within the mesh as a whole.
 void SolidSums::add_faces(const SolidPart& part, const SupportSet& convex, const Box& box) {
   const Primitive& mesh = *part.primitive;
-  if (mesh.mesh()->triangles().size() > kMostSums) return fail(kBecauseManyFaces);
+  const size_t triangles = mesh.mesh()->triangles().size();
+  if (triangles > kMostSums) return fail(kBecauseManyFaces);
+  if (3 * triangles * convex.generators.size() > kMostWork) return fail(kBecauseManyCorners);
   sums_.push_back(moved(part, convex.generators.front().center, box));
   for (const auto& triangle : mesh.mesh()->triangles()) {
     std::array<Vec3, 3> corners;

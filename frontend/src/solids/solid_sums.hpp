@@ -13,6 +13,9 @@ namespace frontend {
 /// Collects the sums of pairs of parts, whose union is the sum of the unions.
 class SolidSums {
  public:
+  /// What is round and not convex becomes facets, with that many chords for a whole circle.
+  explicit SolidSums(int chords) : chords_(chords) {}
+
   /// Adds the sum of each part of the one and each of the other.
   void add(std::vector<SolidPart> a, std::vector<SolidPart> b);
   std::vector<SolidPart> take() { return std::move(sums_); }
@@ -20,6 +23,7 @@ class SolidSums {
   std::string_view failure() const { return failure_; }
 
  private:
+  SolidPart as_mesh(SolidPart part) const;
   std::vector<SolidPart> in_convex_parts(const std::vector<SolidPart>& parts);
   void add_pair(const SolidPart& a, const SolidPart& b);
   void add_convex(const SupportSet& a, const SupportSet& b, const csgcore::Box& box);
@@ -29,6 +33,7 @@ class SolidSums {
   void add_extrusion(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
   void fail(std::string_view why);
 
+  int chords_;
   std::vector<SolidPart> sums_;
   std::string_view failure_;
   size_t work_ = 0;  // of what was added: pairs of generators, and their sums

@@ -112,11 +112,13 @@ std::vector<SolidPart> SolidUnion::outcome(const SolidValue& value) {
 
 /// Returns no triangles of what is flat.
 csgcore::TriangleSet SolidUnion::triangles_of(const SolidPart& part, bool& is_smooth) {
+  // Of what is round by hulls or profiles, whose chords OpenSCAD has chosen before.
+  const int unknown = least_chords_ > 0 ? least_chords_ : kChordsOfCutDisc;
   TriangleSet result;
   if (!part.primitive) {
     const Generators& generators = part.body.generators;
     if (!std::ranges::all_of(generators, frontend::is_finite)) return {};
-    PointSet points = points_of(generators, kChordsOfCutDisc);
+    PointSet points = points_of(generators, unknown);
     result = triangles_of_hull(std::move(points.points));
     is_smooth = is_smooth || points.is_faceted || part.body.is_faceted;
   } else {
@@ -125,10 +127,7 @@ csgcore::TriangleSet SolidUnion::triangles_of(const SolidPart& part, bool& is_sm
     if (primitive.mesh() && !primitive.mesh()->is_closed()) fail(kBecauseOpenMesh);
     const bool is_round = !primitive.polyhedron() && !primitive.mesh();
     const int own = traits_of(primitive.shape()).fragments(primitive, part.facets);
-    const int chords = own == 0 ? kChordsOfCutDisc
-                       : fineness_ == Fineness::kOpenScad
-                           ? std::min(own, kChordsOfCircle)
-                           : std::clamp(own, kChordsOfCutDisc, kChordsOfCircle);
+    const int chords = own == 0 ? unknown : std::clamp(own, least_chords_, kChordsOfCircle);
     result = frontend::triangles_of(primitive, chords);
     is_smooth = is_smooth || is_round || part.is_faceted;
   }

@@ -1,7 +1,7 @@
 // The outcome of set operations on solids, as solids whose union it is.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -10,15 +10,11 @@
 
 namespace frontend {
 
-/// How many facets what is round gets where it takes part in a difference or an intersection.
-enum class Fineness : uint8_t {
-  kOpenScad,  // those that OpenSCAD gives it
-  kSmooth,    // at least kChordsOfCutDisc
-};
-
 class SolidUnion {
  public:
-  explicit SolidUnion(Fineness fineness = Fineness::kSmooth) : fineness_(fineness) {}
+  /// What is round, and takes part in a difference or an intersection, has as many chords as
+  /// OpenSCAD gives it, but at least so many.
+  explicit SolidUnion(int least_chords = kChordsOfCutDisc) : least_chords_(least_chords) {}
 
   /// Returns parts whose union is the value, or nothing if failure() is not empty. What no
   /// difference or intersection takes part in stays what it is. The others are convex bodies of
@@ -31,7 +27,7 @@ class SolidUnion {
   csgcore::TriangleSet triangles_of(const SolidPart& part, bool& is_smooth);
   void fail(std::string_view why);
 
-  Fineness fineness_;
+  int least_chords_;
   std::string_view failure_;
   size_t triangles_ = 0;  // of all operands so far
 };

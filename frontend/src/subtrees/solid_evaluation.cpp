@@ -97,8 +97,8 @@ SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
   return value_of(std::move(part));
 }
 
-std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value, Fineness fineness) {
-  SolidUnion outcome(fineness);
+std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value, int least_chords) {
+  SolidUnion outcome(least_chords);
   std::vector<SolidPart> parts = outcome.parts_of(value);
   if (!outcome.failure().empty()) fail(outcome.failure());
   return parts;

@@ -44,8 +44,8 @@ class SolidEvaluation {
   std::vector<SolidValue> operands(uint32_t node);
   /// Returns the figures of the operands of an extrusion.
   std::vector<Figure> figures(uint32_t node) const { return planes_.union_of_operands(node); }
-  /// Returns parts whose union is the value, as far as that can be found.
-  std::vector<SolidPart> united(const SolidValue& value, Fineness fineness = Fineness::kSmooth);
+  /// Returns parts whose union is the value, as far as that can be found (SolidUnion).
+  std::vector<SolidPart> united(const SolidValue& value, int least_chords = kChordsOfCutDisc);
   FigureSolids& figure_solids() { return figure_solids_; }
   NodeProblems& problems() { return problems_; }
   /// Nothing more is evaluated.

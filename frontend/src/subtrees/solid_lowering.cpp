@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "csgcore/stop_scope.hpp"
+#include "solids/faceted_box.hpp"
 #include "solids/leaves.hpp"
 
 namespace frontend {
