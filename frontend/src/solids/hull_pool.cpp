@@ -13,6 +13,8 @@ using csgcore::Vec3;
 /// Larger sets are not kept: their keys take more than they save within a design, or some MB each
 /// from version to version.
 constexpr size_t kMostShared = 1 << 10, kMostKept = 1 << 16;
+/// So many solids are kept before it is known that they are repeated: some 100 MB.
+constexpr size_t kMostUnrepeated = 1 << 16;
 
 void add_numbers(const Vec3& v, std::vector<double>& key) {
   for (int axis = 0; axis < 3; ++axis) key.push_back(v[axis]);
@@ -44,8 +46,8 @@ ConvexSolid HullPool::shared(const Generators& generators) {
       found->second.is_used = true;
       return found->second.solid;
     }
-    const bool is_kept =
-        keeps_ == Keeps::kAll || !seen_.insert(std::hash<std::string_view>()(bytes)).second;
+    const bool is_kept = keeps_ == Keeps::kAll || solids_.size() < kMostUnrepeated ||
+                         !seen_.insert(std::hash<std::string_view>()(bytes)).second;
     if (!is_kept) key.clear();
   }
   // Made without the lock: threads that want the same solid at once make it once each.

@@ -17,7 +17,7 @@ class HullPool {
  public:
   /// What is kept for later use.
   enum class Keeps : uint8_t {
-    kRepeated,  // solids from the second time on that they are asked for
+    kRepeated,  // many solids, and others from the second time on that they are asked for
     kAll,       // for the design's next version
   };
   explicit HullPool(Keeps keeps = Keeps::kRepeated) : keeps_(keeps) {}
