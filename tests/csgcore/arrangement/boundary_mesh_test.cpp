@@ -378,7 +378,7 @@ TEST(BoundaryMesh, OfAnyNumberOfThreadsIsTheSame) {
 
 constexpr uint32_t kParts = 10;  // so that they run side by side
 constexpr uint32_t kFullTrees = 10'000;
-constexpr uint32_t kSampleTrees = 1'000;
+constexpr uint32_t kSampleTrees = 400;
 
 uint32_t trees_of_a_part() {
   if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
@@ -486,7 +486,7 @@ MeshParts odd_surface(std::mt19937& random) {
 }
 
 /// Returns the number of inputs, of the hundred thousand that a full run has.
-uint32_t odd_inputs() { return test_support::full_run() ? 100'000 : 4'000; }
+uint32_t odd_inputs() { return test_support::full_run() ? 100'000 : 1'500; }
 
 TEST(BoundaryMeshOfOddNumbers, IsAClosedSurface) {
   for (uint32_t seed = 1; seed <= odd_inputs(); ++seed) {
