@@ -222,6 +222,7 @@ class CellTree::Builder {
     constexpr size_t kSamples = 64;
     const size_t step = std::max<size_t>(list.size() / kSamples, 1);
     std::array<std::vector<float>, 3> centers;
+    for (auto& values : centers) values.reserve(2 * kSamples);
     for (size_t i = 0; i < list.size(); i += step) {
       const FacetBox& box = boxes_[list[i]];
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -249,20 +250,29 @@ class CellTree::Builder {
 
   bool divide(Cell& cell, size_t axis, int64_t plane) const {
     if (plane <= cell.corner[axis]) return false;
-    std::vector<uint32_t> low;
-    std::vector<uint32_t> high;
     const auto at = static_cast<double>(plane);
+    const auto is_low = [&](uint32_t facet) {
+      return static_cast<double>(boxes_[facet].min[axis]) <= at;
+    };
+    const auto is_high = [&](uint32_t facet) {
+      return static_cast<double>(boxes_[facet].max[axis]) >= at;
+    };
+    size_t low_count = 0;
+    size_t high_count = 0;
     for (const uint32_t facet : cell.facets) {
-      const FacetBox& box = boxes_[facet];
-      if (static_cast<double>(box.min[axis]) <= at) low.push_back(facet);
-      if (static_cast<double>(box.max[axis]) >= at) high.push_back(facet);
+      low_count += is_low(facet) ? 1 : 0;
+      high_count += is_high(facet) ? 1 : 0;
     }
     // Where most facets reach both sides, planes do not tell them apart.
     const size_t all = cell.facets.size();
-    if (10 * std::max(low.size(), high.size()) > 9 * all ||
-        10 * (low.size() + high.size()) > 16 * all) {
+    if (10 * std::max(low_count, high_count) > 9 * all ||
+        10 * (low_count + high_count) > 16 * all) {
       return false;
     }
+    std::vector<uint32_t> low(low_count);
+    std::vector<uint32_t> high(high_count);
+    std::ranges::copy_if(cell.facets, low.begin(), is_low);
+    std::ranges::copy_if(cell.facets, high.begin(), is_high);
     cell.axis = axis;
     cell.plane = plane;
     cell.low = std::make_unique<Cell>();
