@@ -18,7 +18,7 @@ using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 
 /// How much of a subtree's volume has the colour at hand.
-enum class Share : uint8_t { kNoColor, kSome, kAll };
+enum class Share : uint8_t { kNothing, kSome, kAll };
 
 /// Writes the part of a tree that has one colour. A subtree is named by the index of its last
 /// token.
@@ -77,7 +77,7 @@ class ColorDivider {
     for (size_t i = 0; i < tokens_.size(); ++i) {
       const CsgToken& token = tokens_[i];
       if (token.is_primitive) {
-        shares_[i] = has_color(token.value) ? Share::kAll : Share::kNoColor;
+        shares_[i] = has_color(token.value) ? Share::kAll : Share::kNothing;
       } else {
         const auto operands = std::span(done).last(token.value);
         const bool are_equal = token.op != Op::kUnion ||
@@ -101,7 +101,7 @@ class ColorDivider {
       case Step::kColor:
         break;
     }
-    if (shares_[step.subtree] == Share::kNoColor) return builder_.empty();
+    if (shares_[step.subtree] == Share::kNothing) return builder_.empty();
     if (shares_[step.subtree] == Share::kAll) return add_whole(step.subtree);
     if (tokens_[step.subtree].op == Op::kUnion) return divide_union(step.subtree);
     // The colour is that of the first operand.
@@ -140,9 +140,9 @@ class ColorDivider {
       const Share share = shares_[operand];
       const bool meets = !csgcore::intersection(boxes_[operand], box).empty();
       if (share != Share::kAll && meets) {
-        add_to_run(runs, Share::kNoColor, operand);
+        add_to_run(runs, Share::kNothing, operand);
       }
-      if (share == Share::kNoColor) continue;
+      if (share == Share::kNothing) continue;
       add_to_run(runs, Share::kAll, operand);
       box.merge(boxes_[operand]);
     }
