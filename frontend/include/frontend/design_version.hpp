@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "frontend/camera.hpp"
 #include "frontend/design_file_options.hpp"
 #include "frontend/design_tree.hpp"
+#include "frontend/file_text.hpp"
 #include "frontend/imported_design.hpp"
 #include "frontend/source_place.hpp"
 #include "language/customizer_parameter.hpp"
@@ -59,6 +61,8 @@ struct DesignVersion {
   bool unchanged = false;
   DesignSource source;  // that `design` was made from
   DesignInputs inputs;  // that it was read with
+  /// What text_in_memory() has given of a design that can be read only once; else nothing.
+  std::optional<FileText> stream;
   DesignCamera camera;  // that the design asks for
   /// Those of the last text that could be parsed; null: there was none, or it is no .scad.
   std::shared_ptr<const DesignParameters> parameters;

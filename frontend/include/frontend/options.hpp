@@ -87,6 +87,9 @@ constexpr std::size_t kMaxPictures = kMaxRemovedFiles - 2;
 /// Returns the format of the path's suffix. Throws Error for any other suffix.
 PictureFormat picture_format(const std::string& path);
 
+/// The same of a solid or plane figure.
+ModelFormat model_format(const std::string& path);
+
 /// Parses the arguments (without the program's name). Throws Error for any that is wrong.
 Options parse_options(const std::vector<std::string>& arguments);
 

@@ -100,7 +100,8 @@ void read_tolerance(const Arguments& arguments, Options& options) {
   options.model_tolerance = arguments.number<double>(
       "tolerance", std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), 0,
       "give a length above 0, in the design's units");
-  if (arguments.has("tolerance") && options.models.empty()) {
+  const bool is_window = options.outputs.empty() && options.texts.empty();  // which may export
+  if (arguments.has("tolerance") && options.models.empty() && !is_window) {
     options.warnings.push_back("--tolerance has no effect without -o of a solid or plane figure");
   }
 }
@@ -150,6 +151,16 @@ PictureFormat picture_format(const std::string& path) {
         path, {}, "is no picture",
         "end it in .png or .exr, or in what a design is exported to (.stl, .off, .obj, .3mf, "
         ".amf, .svg, .dxf, .pdf, .csg, .echo), or give --export-format");
+  }
+  return *format;
+}
+
+ModelFormat model_format(const std::string& path) {
+  const ModelFormat* format = find_word(kModelFormats, suffix_of(path));
+  if (!format) {
+    throw Error(path, {}, "is no format of solids or plane figures",
+                "end it in .stl, .off, .obj, .3mf or .amf, or of a plane figure in .svg, .dxf or "
+                ".pdf");
   }
   return *format;
 }

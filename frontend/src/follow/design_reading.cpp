@@ -152,6 +152,7 @@ DesignReading read_anew(const std::string& path, const DesignFileOptions& option
   reading.version.inputs = options.inputs;
   report_failures(path, reading, [&] { read_into(reading, path, options, stop); });
   report_failures(path, reading, [&] { find_parameters(reading, path); });
+  reading.version.stream = reading.good.stream;
   return reading;
 }
 

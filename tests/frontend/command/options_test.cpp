@@ -117,6 +117,7 @@ TEST(Options, Tolerance) {
   }
   EXPECT_THAT(parse_options({"-o", "a.png", "--tolerance=1", "a"}).warnings,
               testing::ElementsAre(HasSubstr("--tolerance has no effect")));
+  EXPECT_THAT(parse_options({"--tolerance=1", "a"}).warnings, testing::IsEmpty());
 }
 
 TEST(Options, OutputsThatCannotBe) {
