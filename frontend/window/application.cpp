@@ -103,11 +103,13 @@ Application::Application(const frontend::Options& options)
       actions_{.run = [this](Command command) { run_command(command); },
                .save = [this](const std::string& path) { save_picture(path); },
                .open = [this](const MessagePlace& place) { open_place(place); },
-               .open_design = [this](const std::string& path) { opening_ = path; }},
+               .open_design = [this](const std::string& path) { opening_ = path; },
+               .export_model = [this](const std::string& path) { export_model(path); }},
       report_(options.stats_path),
       frame_s_(1 / window_.frames_per_second()),
       editor_(options.editor, GlfwWindow::wake),
       painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
+      exporter_(GlfwWindow::wake),
       follower_(options.input, follow_options(options), GlfwWindow::wake),
       has_camera_(!frontend::sees_all(options.camera)) {
   restore_habits(memory_, options_.given, state_);
@@ -119,7 +121,7 @@ Application::Application(const frontend::Options& options)
 
 /// Shows nothing yet of the design of the options.
 void Application::begin_design() {
-  state_.picture_path = default_picture(options_.input);
+  state_.picture_dialogue.path = default_picture(options_.input);
   const frontend::Rgb background = state_.look.scheme.background;
   screen_.load({1, 1, {{background.r, background.g, background.b}}, {}, {}, {}, {}});
   std::error_code failed;
@@ -202,7 +204,7 @@ std::optional<double> Application::seconds_to_next_look() const {
   if (is_reading_ && !state_.is_reading) look_at(reading_since_ + kShortReading);
   if (const auto due = hover_.due()) look_at(*due);
   if (const auto due = memory_.due()) look_at(*due);
-  for (const auto& activity : {follower_.activity(), painter_.activity()}) {
+  for (const auto& activity : activities()) {
     if (activity && window_.size().width_px > 0)
       look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
   }
@@ -227,7 +229,7 @@ bool Application::watch_reading() {
 int Application::watch_long_work() {
   const bool was_shown = state_.long_activity.has_value();
   state_.long_activity.reset();
-  for (auto& activity : {follower_.activity(), painter_.activity()}) {
+  for (const auto& activity : activities()) {
     if (activity && Clock::now() - activity->since >= kLongWork && !state_.long_activity) {
       state_.long_activity = activity;
     }
@@ -235,6 +237,11 @@ int Application::watch_long_work() {
   if (state_.long_activity.has_value() != was_shown) return kFramesAfterEvent;
   const bool is_due = was_shown && Clock::now() >= last_frame_ + kProgressInterval;
   return is_due ? 1 : 0;
+}
+
+/// Returns what each thread does, the one that the user is most likely to wait for first.
+std::array<std::optional<frontend::Activity>, 3> Application::activities() const {
+  return {follower_.activity(), painter_.activity(), exporter_.activity()};
 }
 
 /// Returns whether the picture that was ordered last is still to come.
@@ -246,7 +253,7 @@ bool Application::is_drawing() const {
 
 /// Returns since when something has been under way, without a pause.
 std::optional<Application::Clock::time_point> Application::watch_work() {
-  if (!is_reading_ && !follower_.activity() && !is_drawing()) {
+  if (!is_reading_ && !follower_.activity() && !is_drawing() && !exporter_.activity()) {
     working_since_.reset();
   } else if (!working_since_) {
     working_since_ = Clock::now();
@@ -261,9 +268,12 @@ bool Application::is_worth_stopping() {
   return since && (Clock::now() - *since >= kShortReading || !state_.has_anything_to_forget());
 }
 
-/// Ends reading, rendering and drawing; what they have made last stays.
+/// Ends reading, rendering, drawing and exporting; what they have made last stays.
 void Application::stop_work() {
   if (!watch_work()) return;
+  if (exporter_.stop()) {
+    state_.notice = "stopped; nothing was exported to " + std::exchange(state_.exporting, {});
+  }
   if (is_reading_ || follower_.activity()) follower_.stop();
   if (is_drawing()) {
     painter_.stop();
@@ -333,6 +343,10 @@ bool Application::take_news() {
   }
   if (auto problem = editor_.take_problem()) {
     state_.notice = std::move(*problem);
+    any = true;
+  }
+  if (const auto outcome = exporter_.take_outcome()) {
+    take_outcome(*outcome);
     any = true;
   }
   while (const auto finding = painter_.take_finding()) {
@@ -473,6 +487,28 @@ void Application::order_picture() {
 void Application::save_picture(const std::string& path) {
   save_path_ = path;
   saving_ = 0;
+}
+
+/// Exports the design as its file and its parameters are now.
+void Application::export_model(const std::string& path) {
+  state_.exporting = path;
+  exporter_.start(
+      {path, options_, inputs_, state_.version ? state_.version->stream : std::nullopt});
+}
+
+void Application::take_outcome(const ModelOutcome& outcome) {
+  state_.exporting.clear();
+  state_.notice = outcome.error.empty() ? "exported " + outcome.path : outcome.error;
+  // Most warnings are the design's, which the messages show in any case.
+  std::vector<std::string> others;
+  for (const std::string& warning : outcome.warnings) {
+    const bool is_shown =
+        std::any_of(state_.messages.begin(), state_.messages.end(),
+                    [&](const Message& message) { return message.text == warning; });
+    if (!is_shown) others.push_back(warning);
+  }
+  if (!others.empty()) state_.notice += '\n' + others.front();
+  if (others.size() > 1) state_.notice += " (and " + std::to_string(others.size() - 1) + " more)";
 }
 
 void Application::write_picture(const Painting& painting) {

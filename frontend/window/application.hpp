@@ -1,6 +1,7 @@
 // The live window's loop: takes news of the design, the painter and the user, and shows pictures.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "glfw_window.hpp"
 #include "hover_timer.hpp"
 #include "memory.hpp"
+#include "model_exporter.hpp"
 #include "motion_meter.hpp"
 #include "navigation.hpp"
 #include "painter.hpp"
@@ -53,6 +55,7 @@ class Application final : private WindowEvents {
   void run_command(Command command);
   void press(const PictureKey& key);
   void save_picture(const std::string& path);
+  void export_model(const std::string& path);
   void open_design(const std::string& path);
   void begin_design();
   void remember();
@@ -67,6 +70,7 @@ class Application final : private WindowEvents {
   bool watch_reading();
   int watch_long_work();
   bool is_drawing() const;
+  std::array<std::optional<frontend::Activity>, 3> activities() const;
   std::optional<Clock::time_point> watch_work();
   bool is_worth_stopping();
   void stop_work();
@@ -74,6 +78,7 @@ class Application final : private WindowEvents {
   void take_version(frontend::DesignVersion version);
   void take_painting(Painting painting);
   void take_finding(const Finding& finding);
+  void take_outcome(const ModelOutcome& outcome);
   void write_picture(const Painting& painting);
   std::vector<frontend::NamedPath> inputs() const;
 
@@ -106,6 +111,7 @@ class Application final : private WindowEvents {
                           // server
   Editor editor_;
   Painter painter_;
+  ModelExporter exporter_;
   frontend::DesignFollower follower_;
 
   frontend::DesignTree tree_;            // of the design that is shown

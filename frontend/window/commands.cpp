@@ -14,6 +14,7 @@ constexpr CommandRow kRows[] = {
     {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
     {Command::kStop, Menu::kFile, "Stop what takes long (Esc)", "", 0, kNone, false},
     {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},
+    {Command::kExport, Menu::kFile, "Export…", "F7", GLFW_KEY_F7, kNone, false},
     {Command::kCopy, Menu::kFile, "Copy what is measured or said", "Ctrl+C", GLFW_KEY_C, kControl,
      false},
     {Command::kOpenEditor, Menu::kFile, "Open in the editor", "E", GLFW_KEY_E, kNone, false},

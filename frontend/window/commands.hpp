@@ -13,6 +13,7 @@ enum class Command : uint8_t {
   kStop,
   kOpenEditor,
   kSavePicture,
+  kExport,
   kCopy,
   kQuit,
   kViewAll,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "framing.hpp"
@@ -130,6 +131,7 @@ void State::begin(const frontend::Options& options) {
   fresh.shows_help = shows_help;
   fresh.shows_parameters = shows_parameters;
   fresh.recent_designs = std::move(recent_designs);
+  fresh.exporting = std::move(exporting);
   *this = std::move(fresh);
 }
 
@@ -143,6 +145,16 @@ void State::take(frontend::DesignVersion newest) {
   is_stopped = false;
   customizer.take(newest.parameters);
   version = std::move(newest);
+}
+
+/// Proposes a path with the suffix of what the design is, unless there is one already.
+void State::ask_for_model() {
+  model_dialogue.is_asked_for = true;
+  if (!model_dialogue.path.empty()) return;
+  const char* const suffix = design && design->is_plane_figure ? ".svg" : ".stl";
+  model_dialogue.path = name == "-"
+                            ? std::string("design") + suffix
+                            : std::filesystem::path(name).replace_extension(suffix).string();
 }
 
 void State::measure(MeasuredPoint point) {
@@ -258,7 +270,14 @@ bool State::apply(Command command) {
         asks_for_design = true;
         break;
       case Command::kSavePicture:
-        asks_for_path = true;
+        picture_dialogue.is_asked_for = true;
+        break;
+      case Command::kExport:
+        if (exporting.empty()) {
+          ask_for_model();
+        } else {
+          notice = exporting + " is being exported (wait, or stop it by Esc)";
+        }
         break;
       default:
         return false;
@@ -312,8 +331,12 @@ std::string size_words(const frontend::ImportedDesign& design) {
 
 std::vector<StatusPart> status_parts(const State& state) {
   constexpr const char* kStopped = "stopped; a save, or F5, starts again";
-  if (!state.version) return {{state.is_stopped ? kStopped : "reading " + state.name, 0}};
   std::vector<StatusPart> parts;
+  if (!state.exporting.empty()) parts.push_back({"exporting " + state.exporting, 0});
+  if (!state.version) {
+    parts.push_back({state.is_stopped ? kStopped : "reading " + state.name, 0});
+    return parts;
+  }
   const frontend::DesignVersion& version = *state.version;
   if (state.design) parts.push_back({size_words(*state.design), 0});
   const auto time = [&parts](const char* format, double ms, int rank) {

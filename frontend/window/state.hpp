@@ -43,6 +43,13 @@ struct HoveredLeaf {
 /// Returns the leaf, its place, and the innermost module that it stands in, a line each.
 std::string hover_text(const HoveredLeaf& hovered);
 
+/// A dialogue for the path of a file that is to be written.
+struct PathDialogue {
+  bool is_asked_for = false;
+  std::string path;
+  std::string path_to_overwrite{};  // that exists: the dialogue asks whether to overwrite it
+};
+
 struct State {
   explicit State(const frontend::Options& options);
 
@@ -70,9 +77,8 @@ struct State {
   bool asks_for_design = false;             // shows the dialogue for another design
   std::optional<FileBrowser> browser;       // of that dialogue
   std::vector<std::string> recent_designs;  // absolute paths, the newest first
-  bool asks_for_path = false;               // shows the dialogue for the path of a picture
-  std::string picture_path;
-  std::string path_to_overwrite;  // that exists: the dialogue asks whether to overwrite it
+  PathDialogue picture_dialogue;
+  PathDialogue model_dialogue;
 
   // The design.
   std::string name;                                        // the file's name
@@ -82,6 +88,8 @@ struct State {
   bool is_reading = false;
   bool is_stopped = false;  // the user has ended what was done for the newest version
   std::optional<frontend::Activity> long_activity;  // what the user waits for, beyond a second
+
+  std::string exporting;  // the path of the model that is being made; empty: none
 
   // The picture.
   std::optional<Painting> painting;  // the one shown, without its image
@@ -115,6 +123,8 @@ struct State {
   void move_section(double share);
 
  private:
+  void ask_for_model();
+
   /// bounds() and of what design, since that takes some milliseconds.
   mutable std::pair<std::shared_ptr<const frontend::ImportedDesign>, csgcore::Box> bounds_;
 };

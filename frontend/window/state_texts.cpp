@@ -91,7 +91,9 @@ std::string text_to_copy(const State& state) {
 void visit_texts(const State& state, const Visit& visit) {
   visit(state.name);
   visit(state.notice);
-  visit(state.picture_path);
+  visit(state.exporting);
+  visit(state.picture_dialogue.path);
+  visit(state.model_dialogue.path);
   visit(state.message_filter);
   visit(state.new_set);
   visit(state.parameter_edit.text);

@@ -78,6 +78,7 @@ TEST(Commands, OpenScadsKeys) {
       {"Ctrl+Shift+0", Command::kCenter}, {"Ctrl+Shift+V", Command::kViewAll},
       {"Ctrl+]", Command::kZoomIn},       {"Ctrl+[", Command::kZoomOut},
       {"F4", Command::kReload},           {"F5", Command::kReload},
+      {"F7", Command::kExport},
   };
   for (const auto& [text, command] : kKeys) {
     const auto [key, modifiers] = key_of(text);

@@ -172,6 +172,74 @@ TEST_F(Saving, WritesMeasurements) {
   EXPECT_TRUE(folder_.read("b.exr") == folder_.read("wanted.exr"));
 }
 
+class Exporting : public Saving {
+ protected:
+  /// Writes what the dialogue proposes, or another path, and waits for the end of it.
+  void export_to(const std::string& path = "") {
+    const Picture before = shown();
+    key("F7");
+    wait_until_settled(before);
+    if (!path.empty()) display().drive({"key", "ctrl+a", "type", path});
+    key("Return");
+  }
+  std::string written(const std::string& name) {
+    EXPECT_TRUE(wait_until([&] { return folder_.has(name); }));
+    return folder_.read(name);
+  }
+  /// Returns what the command writes with these options.
+  std::string exported(const std::string& name, std::vector<std::string> options = {}) {
+    ProcessSetup setup;
+    setup.words = {SCADRAY_PROGRAM, "-o", folder_ / name, design_};
+    setup.words.insert(setup.words.end(), options.begin(), options.end());
+    run(setup);
+    return folder_.read(name);
+  }
+};
+
+TEST_F(Exporting, WritesTheModelOfTheCommand) {
+  design_ = folder_.write("a.scad", "a = 1; // [1:9]\ncube([a, 2, 3]);\n");
+  open(design_, {"-D", "a=4"});
+  next();
+  export_to();
+  EXPECT_TRUE(written("a.stl") == exported("wanted.stl", {"-D", "a=4"}));
+  export_to(folder_ / "b.off");
+  EXPECT_EQ(written("b.off"), exported("wanted.off", {"-D", "a=4"}));
+  // The design as it is now, and not without asking.
+  const std::string old = folder_.read("a.stl");
+  folder_.write("a.scad", "sphere(5);");
+  next();
+  const Picture closed = shown();
+  key("F7");
+  wait_until_settled(closed);
+  display().drive({"key", "ctrl+a", "type", folder_ / "a.stl"});
+  const Picture dialogue = shown();
+  key("Return");
+  wait_until_settled(dialogue);
+  EXPECT_TRUE(folder_.read("a.stl") == old);
+  key("ctrl+Return");
+  EXPECT_TRUE(wait_until([&] { return folder_.read("a.stl") != old; }));
+  EXPECT_TRUE(folder_.read("a.stl") == exported("wanted.stl", {"-D", "a=4"}));
+}
+
+TEST_F(Exporting, LeavesTheViewUsableAndIsStopped) {
+  // The preview is a cube, and the final render takes for ever.
+  design_ = folder_.write(
+      "a.scad", "a = [if (!$preview) for (i = [1:1e5], j = [1:1e5]) if (i < 0) 1];\ncube(9);\n");
+  open(design_);
+  next();
+  const Picture before = shown();
+  export_to();
+  wait_until_other(before);
+  key("ctrl+4");
+  EXPECT_EQ(next()["camera"]["rotation_deg"], json({0, 0, 0}));
+  folder_.write("a.scad", "cube(8);\n");
+  next();
+  key("Escape");
+  export_to(folder_ / "b.stl");  // it would be refused while the other one runs
+  EXPECT_TRUE(written("b.stl") == exported("wanted.stl"));
+  EXPECT_FALSE(folder_.has("a.stl"));
+}
+
 /// The block without the part on one side of a plane across x.
 std::string cut_block(double position, bool keeps_lower) {
   const double from = keeps_lower ? position : -100 + position;

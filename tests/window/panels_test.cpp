@@ -142,7 +142,13 @@ TEST_P(Panels, AreWhole) {
       "place", [&] { measure(); }, [&] { state_.points.clear(); });
   alone(
       "messages", [&] { say(); }, [&] { state_.messages.clear(); });
-  state_.asks_for_path = true;
+  state_.picture_dialogue.is_asked_for = true;
+  draw();
+  expect_whole();
+}
+
+TEST_P(Panels, TheDialogueForExportsIsWhole) {
+  state_.apply(Command::kExport);
   draw();
   expect_whole();
 }

@@ -223,7 +223,37 @@ TEST_F(StateTest, EscapeForgetsPointsAndHelp) {
 
 TEST_F(StateTest, SavingAsksForAPath) {
   state_.apply(Command::kSavePicture);
-  EXPECT_TRUE(state_.asks_for_path);
+  EXPECT_TRUE(state_.picture_dialogue.is_asked_for);
+}
+
+TEST_F(StateTest, ExportingAsksForAPath) {
+  state_.name = "/a/b.c.scad";
+  state_.apply(Command::kExport);
+  EXPECT_TRUE(state_.model_dialogue.is_asked_for);
+  EXPECT_EQ(state_.model_dialogue.path, "/a/b.c.stl");
+  auto figure = std::make_shared<frontend::ImportedDesign>(*state_.design);
+  figure->is_plane_figure = true;
+  state_.design = figure;
+  state_.apply(Command::kExport);  // the path is the user's from now on
+  EXPECT_EQ(state_.model_dialogue.path, "/a/b.c.stl");
+  state_.model_dialogue = {};
+  state_.apply(Command::kExport);
+  EXPECT_EQ(state_.model_dialogue.path, "/a/b.c.svg");
+  state_.model_dialogue = {};
+  state_.name = "-";
+  state_.apply(Command::kExport);
+  EXPECT_EQ(state_.model_dialogue.path, "design.svg");
+}
+
+TEST_F(StateTest, OneExportAtATime) {
+  state_.name = "a.scad";
+  state_.exporting = "a.stl";
+  EXPECT_EQ(status_line(state_), "exporting a.stl  |  reading a.scad");
+  state_.apply(Command::kExport);
+  EXPECT_FALSE(state_.model_dialogue.is_asked_for);
+  EXPECT_THAT(state_.notice, testing::HasSubstr("a.stl is being exported"));
+  state_.begin({});  // another design; the export goes on
+  EXPECT_EQ(state_.exporting, "a.stl");
 }
 
 TEST_F(StateTest, StatusLine) {

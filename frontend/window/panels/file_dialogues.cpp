@@ -103,33 +103,57 @@ std::optional<std::string> draw_browser(FileBrowser& browser) {
   return is_entered ? browser.enter() : std::nullopt;
 }
 
-/// Ends the dialogue if the picture may be written there, or asks first.
-void save_or_ask(State& state, const SavePicture& save) {
+/// What the dialogue for a kind of file says.
+struct PathWords {
+  const char* name;
+  const char* formats;
+  const char* save;
+};
+
+/// Ends the dialogue if the file may be written there, or asks first.
+void save_or_ask(PathDialogue& dialogue, const SaveFile& save) {
   std::error_code failed;
-  if (state.path_to_overwrite != state.picture_path &&
-      std::filesystem::exists(state.picture_path, failed)) {
-    state.path_to_overwrite = state.picture_path;
+  if (dialogue.path_to_overwrite != dialogue.path &&
+      std::filesystem::exists(dialogue.path, failed)) {
+    dialogue.path_to_overwrite = dialogue.path;
     return;
   }
-  save(state.picture_path);
+  save(dialogue.path);
   ImGui::CloseCurrentPopup();
 }
 
-void path_row(State& state, const SavePicture& save, float width) {
+void path_row(PathDialogue& dialogue, const PathWords& words, const SaveFile& save, float width) {
   ImGui::SetNextItemWidth(width);
   const bool is_entered =
-      ImGui::InputText("##path", &state.picture_path, ImGuiInputTextFlags_EnterReturnsTrue);
+      ImGui::InputText("##path", &dialogue.path, ImGuiInputTextFlags_EnterReturnsTrue);
   if (is_entered) ImGui::SetKeyboardFocusHere(-1);
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-  const bool is_asking = state.path_to_overwrite == state.picture_path;
-  ImGui::TextUnformatted(is_asking ? "That file exists already."
-                                   : ".png or .exr, as -o writes it, in the size of the window");
+  const bool is_asking = dialogue.path_to_overwrite == dialogue.path;
+  ImGui::TextUnformatted(is_asking ? "That file exists already." : words.formats);
   ImGui::PopTextWrapPos();
   // Return alone never overwrites: it may be pressed twice. The field may not have the keys again.
   const bool is_return = is_entered || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
   const bool is_confirmed = is_asking && is_return && ImGui::GetIO().KeyCtrl;
-  const bool is_pressed = ImGui::Button(is_asking ? "Overwrite (Ctrl+Return)" : "Save");
-  if (is_pressed || is_confirmed || (is_entered && !is_asking)) save_or_ask(state, save);
+  const bool is_pressed = ImGui::Button(is_asking ? "Overwrite (Ctrl+Return)" : words.save);
+  if (is_pressed || is_confirmed || (is_entered && !is_asking)) save_or_ask(dialogue, save);
+}
+
+void draw_path_dialogue(PathDialogue& dialogue, const PathWords& words, const SaveFile& save) {
+  if (dialogue.is_asked_for) {
+    dialogue.is_asked_for = false;
+    dialogue.path_to_overwrite.clear();
+    ImGui::OpenPopup(words.name);
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal(words.name, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  path_row(dialogue, words, save, std::min(30 * ImGui::GetFontSize(), 0.8f * size.x));
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
 }
 
 }  // namespace
@@ -155,23 +179,18 @@ void draw_open_dialogue(State& state, const OpenDesign& open) {
   if (path) open(*path);
 }
 
-void draw_save_dialogue(State& state, const SavePicture& save) {
-  constexpr const char* kName = "Save picture";
-  if (state.asks_for_path) {
-    state.asks_for_path = false;
-    state.path_to_overwrite.clear();
-    ImGui::OpenPopup(kName);
-  }
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  path_row(state, save, std::min(30 * ImGui::GetFontSize(), 0.8f * size.x));
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
+void draw_save_dialogue(State& state, const SaveFile& save) {
+  draw_path_dialogue(
+      state.picture_dialogue,
+      {"Save picture", ".png or .exr, as -o writes it, in the size of the window", "Save"}, save);
+}
+
+void draw_export_dialogue(State& state, const SaveFile& save) {
+  draw_path_dialogue(
+      state.model_dialogue,
+      {"Export", "a solid: .stl, .off, .obj, .amf or .3mf; a plane figure: .svg, .dxf or .pdf",
+       "Export"},
+      save);
 }
 
 }  // namespace window

@@ -29,6 +29,7 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   draw_progress(state, actions.run);
   draw_help(state, status_top);
   draw_save_dialogue(state, actions.save);
+  draw_export_dialogue(state, actions.export_model);
   draw_open_dialogue(state, actions.open_design);
   mark_entered_panel();
 }

@@ -19,10 +19,13 @@ using OpenDesign = std::function<void(const std::string& path)>;
 /// Asks for the design to open. `open` is called with the path that is chosen.
 void draw_open_dialogue(State& state, const OpenDesign& open);
 
-using SavePicture = std::function<void(const std::string& path)>;
+using SaveFile = std::function<void(const std::string& path)>;
 
 /// Asks for the path of a picture. `save` is called with the path that is entered.
-void draw_save_dialogue(State& state, const SavePicture& save);
+void draw_save_dialogue(State& state, const SaveFile& save);
+
+/// The same for the design's solid or plane figure.
+void draw_export_dialogue(State& state, const SaveFile& save);
 
 using RunCommand = std::function<void(Command)>;
 
@@ -117,9 +120,10 @@ void copy_measured_or_said(State& state);
 /// What the panels ask of the application.
 struct PanelActions {
   RunCommand run;  // for commands that State::apply() does not do
-  SavePicture save;
+  SaveFile save;
   OpenPlace open;
   OpenDesign open_design{};
+  SaveFile export_model{};
 };
 
 /// Draws all panels. To be called within a frame of ImGui. `view` is that of the picture shown, in
