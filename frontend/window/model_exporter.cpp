@@ -1,6 +1,5 @@
 #include "model_exporter.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <new>
 #include <utility>
@@ -82,8 +81,8 @@ void ModelExporter::run(const ModelOrder& order, const std::stop_token& stop) {
 void ModelExporter::make(const ModelOrder& order, const std::stop_token& stop,
                          ModelOutcome& outcome) {
   const frontend::Options& options = order.options;
-  const auto show = [&](const std::string& stage, double fraction = -1) {
-    if (!stop.stop_requested()) activity_.update("exporting: " + stage, fraction);
+  const auto show = [&](const std::string& stage) {
+    if (!stop.stop_requested()) activity_.update("exporting: " + stage, -1);
   };
   const frontend::ModelFormat format = frontend::model_format(order.path);
   frontend::check_output(order.path);
@@ -95,12 +94,6 @@ void ModelExporter::make(const ModelOrder& order, const std::stop_token& stop,
   frontend::DesignFileOptions reading;
   reading.import = frontend::options_for_export(options.import);
   reading.import.tolerance = options.model_tolerance;
-  reading.import.rendering.is_in_background = true;
-  reading.import.rendering.progress = [&show](const frontend::RenderingProgress& progress) {
-    show("openscad renders line " + std::to_string(progress.line),
-         static_cast<double>(progress.finished) /
-             static_cast<double>(std::max<std::size_t>(progress.parts, 1)));
-  };
   reading.openscad_arguments = options.openscad_arguments;
   reading.evaluator = options.evaluator;
   reading.inputs = order.inputs;
