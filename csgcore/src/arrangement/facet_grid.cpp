@@ -64,6 +64,13 @@ bool are_on_line(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   return plane_through(a, b, c).normal == std::array<Int128, 3>{};
 }
 
+/// A coordinate may be off the grid where the box of all is beyond double's range.
+int64_t on_grid(double x) {
+  constexpr double kMost = 0x1p39;
+  static_assert(kMost == static_cast<double>(int64_t{1} << kGridBits));
+  return std::isfinite(x) ? std::llrint(std::clamp(x, -kMost, kMost)) : 0;
+}
+
 using Edge = std::pair<uint32_t, uint32_t>;
 Edge edge_of(uint32_t a, uint32_t b) { return std::minmax(a, b); }
 
@@ -144,7 +151,7 @@ Facets facets_on_grid(std::span<const TriangleSet> operands) {
     for (const Vec3& vertex : operands[i].vertices) {
       const Vec3 scaled = (vertex - result.middle) * result.scale;
       number_of.push_back(
-          numbers.number({std::llrint(scaled.x), std::llrint(scaled.y), std::llrint(scaled.z)}));
+          numbers.number({on_grid(scaled.x), on_grid(scaled.y), on_grid(scaled.z)}));
     }
     for (const auto& triangle : operands[i].triangles) {
       const Facet facet{{number_of[triangle[0]], number_of[triangle[1]], number_of[triangle[2]]},

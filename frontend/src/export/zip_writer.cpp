@@ -47,7 +47,7 @@ std::string deflated(std::string_view bytes) {
 
 /// Appends the lowest byte first.
 void append_whole(std::string& bytes, uint64_t number, int size) {
-  for (int i = 0; i < size; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xFF);
+  for (int i = 0; i < size; ++i, number >>= 8) bytes += static_cast<char>(number & 0xFF);
 }
 
 }  // namespace

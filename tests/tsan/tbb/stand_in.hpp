@@ -167,6 +167,10 @@ template <class Iterator, class Less>
 void parallel_sort(Iterator begin, Iterator end, const Less& less) {
   std::sort(begin, end, less);
 }
+template <class Iterator>
+void parallel_sort(Iterator begin, Iterator end) {
+  std::sort(begin, end);
+}
 
 class global_control {
  public:
