@@ -221,6 +221,14 @@ TEST_F(Exporting, WritesTheModelOfTheCommand) {
   EXPECT_TRUE(folder_.read("a.stl") == exported("wanted.stl", {"-D", "a=4"}));
 }
 
+TEST_F(Exporting, ProposesADrawingOfAPlaneFigure) {
+  design_ = folder_.write("a.scad", "circle(5);\n");
+  open(design_);
+  next();
+  export_to();
+  EXPECT_EQ(written("a.svg"), exported("wanted.svg"));
+}
+
 TEST_F(Exporting, LeavesTheViewUsableAndIsStopped) {
   // The preview is a cube, and the final render takes for ever.
   design_ = folder_.write(

@@ -39,13 +39,13 @@ struct ImportedDesign {
   std::vector<std::string> files;
   /// Whether it has text, which fonts change that no node names.
   bool has_text = false;
-  /// Whether this is a final render (PictureKind::kRendered) of a plane figure. The scene has a
-  /// thin plate for it.
+  /// Whether this is a final render (PictureKind::kRendered) of a plane figure, or another picture
+  /// of plane figures alone. The scene has thin plates for them.
   bool is_plane_figure = false;
   /// The edges of the plane figure cross too often for its outlines (kMostCrossings), which are
   /// missing.
   bool is_tangle = false;
-  /// The outlines of the plane figure, closed, at z = 0.
+  /// The outlines of a final render's plane figure, closed, at z = 0.
   std::vector<std::vector<csgcore::Vec3>> flat_outlines;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;

@@ -277,8 +277,26 @@ bool needs_layers(const Collector& collected, PictureKind picture) {
                      [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
 }
 
-/// Sets the outlines of a final render of plane figures.
-void set_flat_outlines(const Collector& collected, ImportedDesign& design) {
+/// Returns whether every primitive is part of a plate that stands for a plane figure.
+bool has_plates_alone(const Collector& collected) {
+  if (collected.plane_leaves.empty()) return false;
+  std::vector<bool> is_of_plate(collected.primitives.size());
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    if (!leaf.is_plate) continue;
+    for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
+      if (token.is_primitive) is_of_plate[token.value] = true;
+    }
+  }
+  return !is_of_plate.empty() &&
+         std::find(is_of_plate.begin(), is_of_plate.end(), false) == is_of_plate.end();
+}
+
+/// Finds out whether the design is a plane figure, and sets the outlines of its final render.
+void set_flat_outlines(const Collector& collected, PictureKind picture, ImportedDesign& design) {
+  if (picture != PictureKind::kRendered) {
+    design.is_plane_figure = has_plates_alone(collected);
+    return;
+  }
   std::vector<Figure> figures;
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
     figures.insert(figures.end(), leaf.figures.begin(), leaf.figures.end());
@@ -314,7 +332,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   design.warnings = collected.problems.warnings(tree);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
-  set_flat_outlines(collected, design);
+  set_flat_outlines(collected, options.picture, design);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,
                  union_of(collected.boxes));

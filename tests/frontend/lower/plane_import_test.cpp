@@ -342,6 +342,20 @@ TEST(Plate, IsFlatInAFinalRenderAndHasOutlines) {
       IsEmpty());
 }
 
+TEST(Plate, AloneMakesAPlaneFigure) {
+  for (const PictureKind picture :
+       {PictureKind::kPreview, PictureKind::kRendered, PictureKind::kThrownTogether}) {
+    const auto is_plane_figure = [&](const std::string& text) {
+      return import_text(text, {.picture = picture}).is_plane_figure;
+    };
+    EXPECT_TRUE(is_plane_figure("difference() { square(4); " + moved(1, 1, "square(1);") + " }"));
+    EXPECT_FALSE(is_plane_figure("sphere(4); square(4);"));
+    EXPECT_FALSE(is_plane_figure("sphere(4);"));
+    EXPECT_FALSE(is_plane_figure(extruded("square(4);")));
+    EXPECT_FALSE(is_plane_figure("group();"));
+  }
+}
+
 TEST(Plate, OfRenderIsTheResults) {
   const ImportedDesign design = import_text(
       "render() { difference() { square(1000, center = true); difference() {"
