@@ -40,6 +40,27 @@ TEST_F(WindowInputs, ASliderMovesTheDesign) {
   next_of(10);
 }
 
+TEST_F(WindowInputs, AnExportHasTheSlidersValue) {
+  open(design_);
+  next_of(1);
+  const Picture before = shown();
+  key("ctrl+p");
+  wait_until_settled(before);
+  display().drive({"mousemove", "60", "133", "sleep", "0.1", "mousedown", "1"});
+  display().drive({"mousemove", "390", "133"});
+  next_of(9);
+  display().drive({"mouseup", "1"});
+  const Picture panel = shown();
+  key("F7");
+  wait_until_settled(panel);
+  key("Return");
+  EXPECT_TRUE(wait_until([&] { return folder_.has("a.stl"); }));
+  ProcessSetup setup;
+  setup.words = {SCADRAY_PROGRAM, "-o", folder_ / "wanted.stl", "-D", "n=9", design_};
+  run(setup);
+  EXPECT_TRUE(folder_.read("a.stl") == folder_.read("wanted.stl"));
+}
+
 /// While a frame is drawn, the mouse may have gone on, and its button up.
 TEST_F(WindowInputs, ASliderStaysWhereItIsLeft) {
   open(design_);
