@@ -35,7 +35,7 @@ int side_moved(const GridPlane& plane, const GridPoint& point) {
 }
 
 /// Adds to a winding number what a way along an axis changes, from the side of a facet's plane on
-/// which it starts to the one on which it ends: who leaves by the front is no longer inside.
+/// which it starts to the one on which it ends: a way that leaves by the front ends outside.
 int change(int side_before, int side_after) { return (side_before - side_after) / 2; }
 
 /// Returns whether the point's column along the axis passes the facet.
@@ -322,7 +322,7 @@ class CellTree::Builder {
     }
   }
 
-  /// Facets whose boxes meet the cell need not do so themselves: who has a corner in it does.
+  /// Facets whose boxes meet the cell need not do so themselves: those with a corner in it do.
   void add_alone(Cell& cell) {
     const auto has_corner_in = [&](uint32_t facet) {
       return std::ranges::any_of(facets_.corners(facet), [&](const GridPoint& point) {

@@ -193,17 +193,9 @@ class FaceMerger {
     }
     PlanarSubdivision drawing(
         axis, [](uint32_t, uint32_t, auto&) -> ArrangedPoint { throw OutlineCrosses(); });
-    const auto u = static_cast<size_t>(u_axis(axis));
-    const auto v = static_cast<size_t>(v_axis(axis));
-    GridPoint right = least;
-    right[u] = most[u];
-    GridPoint top = least;
-    top[v] = most[v];
-    const PointName none = corner_name(kNoPlace);
-    drawing.start(grid_point(none, least), grid_point(none, right), grid_point(none, most),
-                  grid_point(none, top));
-    constexpr uint32_t kBorderPoints = 4;
-    std::vector<uint32_t> names(kBorderPoints, kNoPlace);  // by point of the drawing
+    drawing.start_around(least, most);
+    // By point of the drawing.
+    std::vector<uint32_t> names(PlanarSubdivision::kBorderPoints, kNoPlace);
     std::unordered_map<uint32_t, uint32_t> drawn;
     for (const auto& [from, to] : outline) {
       for (const uint32_t end : {from, to}) {
@@ -227,7 +219,7 @@ class FaceMerger {
       auto [a, b, c] = drawing.triangles()[i].points;
       if (!is_left) std::swap(b, c);
       // The outline of an open surface need not be closed.
-      if (std::min({a, b, c}) < kBorderPoints) return unmerged(pieces);
+      if (std::min({a, b, c}) < PlanarSubdivision::kBorderPoints) return unmerged(pieces);
       result.push_back({{names[a], names[b], names[c]}, kept_[pieces.front()].triangle.operand});
     }
     return result;
@@ -237,12 +229,8 @@ class FaceMerger {
   static std::vector<uint32_t> inside(const PlanarSubdivision& drawing) {
     const auto& triangles = drawing.triangles();
     std::vector<int> is_inside(triangles.size(), -1);
-    std::vector<uint32_t> open;
-    for (uint32_t i = 0; open.empty(); ++i) {
-      if (std::ranges::find(triangles[i].beyond, kNoPlace) == triangles[i].beyond.end()) continue;
-      is_inside[i] = 0;
-      open.push_back(i);
-    }
+    std::vector<uint32_t> open{drawing.border_triangle()};
+    is_inside[open.front()] = 0;
     std::vector<uint32_t> result;
     while (!open.empty()) {
       const uint32_t at = open.back();

@@ -65,13 +65,26 @@ void PlanarSubdivision::start(const ArrangedPoint& a, const ArrangedPoint& b,
   add_triangle({is_left ? std::array<uint32_t, 3>{0, 1, 2} : std::array<uint32_t, 3>{0, 2, 1}});
 }
 
-void PlanarSubdivision::start(const ArrangedPoint& a, const ArrangedPoint& b,
-                              const ArrangedPoint& c, const ArrangedPoint& d) {
-  start(a, b, c);
-  const uint32_t point = add_point(d);
+void PlanarSubdivision::start_around(const GridPoint& least, const GridPoint& most) {
+  const auto u = static_cast<size_t>(u_axis(axis_));
+  const auto v = static_cast<size_t>(v_axis(axis_));
+  GridPoint right = least;
+  right[u] = most[u];
+  GridPoint top = least;
+  top[v] = most[v];
+  const PointName none = corner_name(kNoPlace);
+  start(grid_point(none, least), grid_point(none, right), grid_point(none, most));
+  const uint32_t point = add_point(grid_point(none, top));
   const uint32_t other = add_triangle({{0, 2, point}});
   triangles_[0].beyond[2] = other;
   triangles_[other].beyond[0] = 0;
+}
+
+uint32_t PlanarSubdivision::border_triangle() const {
+  const auto is_at_border = [](const Triangle& triangle) {
+    return std::ranges::find(triangle.beyond, kNoPlace) != triangle.beyond.end();
+  };
+  return static_cast<uint32_t>(std::ranges::find_if(triangles_, is_at_border) - triangles_.begin());
 }
 
 uint32_t PlanarSubdivision::add_point(const ArrangedPoint& point) {

@@ -52,10 +52,12 @@ class PlanarSubdivision {
   /// The drawing is along the axis. The first triangle's points lie around all that is inserted,
   /// in either direction.
   PlanarSubdivision(int axis, Meet meet) : axis_(axis), meet_(std::move(meet)) {}
-  /// Starts anew with a triangle, or with two that share an edge from a to c.
+  /// Starts anew with a triangle.
   void start(const ArrangedPoint& a, const ArrangedPoint& b, const ArrangedPoint& c);
-  void start(const ArrangedPoint& a, const ArrangedPoint& b, const ArrangedPoint& c,
-             const ArrangedPoint& d);
+  /// Starts anew with the rectangle that a box has in the drawing, whose corners have the first
+  /// kBorderPoints numbers, and no names.
+  void start_around(const GridPoint& least, const GridPoint& most);
+  static constexpr uint32_t kBorderPoints = 4;
 
   /// Returns the number of the point, which may be there already.
   uint32_t insert(const ArrangedPoint& point);
@@ -63,6 +65,8 @@ class PlanarSubdivision {
   void draw(uint32_t from, uint32_t to, uint32_t line);
 
   int axis() const { return axis_; }
+  /// Returns a triangle at the border.
+  uint32_t border_triangle() const;
   const std::vector<ArrangedPoint>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Link>& links() const { return links_; }

@@ -311,15 +311,7 @@ class SheetMaker {
         }
       }
     }
-    const auto u = static_cast<size_t>(u_axis(drawing.axis()));
-    const auto v = static_cast<size_t>(v_axis(drawing.axis()));
-    GridPoint right = least;
-    right[u] = most[u];
-    GridPoint top = least;
-    top[v] = most[v];
-    const PointName none = corner_name(kNoPlace);
-    drawing.start(grid_point(none, least), grid_point(none, right), grid_point(none, most),
-                  grid_point(none, top));
+    drawing.start_around(least, most);
   }
 
   static Sheet finished(const PlanarSubdivision& drawing, const std::vector<uint32_t>& members) {
@@ -364,12 +356,8 @@ class SheetMaker {
     const auto& triangles = drawing.triangles();
     std::map<std::vector<uint32_t>, uint32_t> numbers{{{}, 0}};
     std::vector<uint32_t> result(triangles.size(), kNoPlace);
-    std::vector<uint32_t> open;
-    for (uint32_t i = 0; i < triangles.size() && open.empty(); ++i) {
-      if (std::ranges::find(triangles[i].beyond, kNoPlace) == triangles[i].beyond.end()) continue;
-      result[i] = 0;
-      open.push_back(i);
-    }
+    std::vector<uint32_t> open{drawing.border_triangle()};
+    result[open.front()] = 0;
     while (!open.empty()) {
       const uint32_t at = open.back();
       open.pop_back();

@@ -41,13 +41,9 @@ double volume_of(const Facets& facets, std::span<const Facet> surface) {
 constexpr double kFlat = 4;
 
 /// Returns whether the facets around each corner wind once around the sum of their normals.
-bool wind_once(const Facets& facets, std::span<const Facet> surface) {
-  std::vector<uint32_t> corners;
-  for (const Facet& facet : surface) {
-    corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
-  }
-  std::ranges::sort(corners);
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+/// `corners` are all of them, in rising order.
+bool wind_once(const Facets& facets, std::span<const Facet> surface,
+               std::span<const uint32_t> corners) {
   const auto place_of = [&](uint32_t corner) {
     return static_cast<size_t>(std::ranges::lower_bound(corners, corner) - corners.begin());
   };
@@ -97,9 +93,8 @@ bool is_convex(const Facets& facets, std::span<const Facet> surface) {
   }
   if (edges.size() % 2 != 0) return false;
   std::ranges::sort(corners);
-  const auto vertex_count =
-      static_cast<size_t>(std::unique(corners.begin(), corners.end()) - corners.begin());
-  if (vertex_count + surface.size() != edges.size() / 2 + 2) return false;
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  if (corners.size() + surface.size() != edges.size() / 2 + 2) return false;
   std::ranges::sort(edges);
   const auto plane_of = [&](uint32_t facet) {
     const auto& [a, b, c] = surface[facet].corners;
@@ -132,7 +127,7 @@ bool is_convex(const Facets& facets, std::span<const Facet> surface) {
       return false;
     }
   }
-  return bend != 0 && wind_once(facets, surface);
+  return bend != 0 && wind_once(facets, surface, corners);
 }
 
 }  // namespace
