@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "arguments/value_text.hpp"
+#include "solids/faceted_box.hpp"
 #include "solids/sliced_extrusion.hpp"
 #include "subtrees/extrusions.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/solid_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -71,38 +71,50 @@ LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
   return {arguments, keeps_facets(options, asked)};
 }
 
-/// Returns whether a twist leaves the figures as they are.
-bool are_round(const std::vector<Figure>& figures, const TwistedLayers& layers) {
+/// Returns whether a twist leaves all figures as they are: they are discs about the axis.
+bool are_round(const std::vector<PlacedFigure>& figures, const TwistedLayers& layers) {
   return layers.top_scale.x == layers.top_scale.y &&
-         std::all_of(figures.begin(), figures.end(), [](const Figure& figure) {
-           const Disc* disc = std::get_if<Disc>(&figure);
-           return disc != nullptr && disc->center == Vec2(0.0);
+         std::all_of(figures.begin(), figures.end(), [](const PlacedFigure& placed) {
+           const Disc* disc = std::get_if<Disc>(placed.figure.get());
+           return disc != nullptr && keeps_circles(placed.map) &&
+                  placed.place().point(disc->center) == Vec2(0.0);
          });
 }
 
-SolidValue extruded(SolidEvaluation& solids, uint32_t node) {
-  const LinearExtrudeNode& data = solids.data<LinearExtrudeNode>(node);
-  const LinearExtrudeArguments& arguments = data.arguments;
-  if (!(arguments.height > 0)) return {};
-  const std::vector<Figure> figures = solids.figures(node);
-  const TwistedLayers layers = layers_of(arguments);
-  SolidValue result;
-  if (layers.is_twisted() && !are_round(figures, layers)) {
-    auto solid = sliced_extrusion(data, solids.node(node), figures, solids.problems());
-    if (!solid) return {};
-    result = value_of(faceted_part(std::move(solid->mesh), !data.is_faceted));
-    result.parts.front().box = solid->box;
-  } else {
-    std::vector<SolidPart> parts;
-    for (const Figure& figure : figures) {
-      std::optional<Primitive> primitive =
-          solids.figure_solids().extruded(figure, {layers.z_min, layers.z_max, layers.top_scale.x});
-      if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
-    }
-    result = union_of(std::move(parts));
+LoweredSubtree sliced(const Extrusion& extrusion) {
+  const auto& data = std::get<LinearExtrudeNode>(extrusion.data);
+  LoweredSubtree result;
+  std::optional<SlicedExtrusion> solid =
+      sliced_extrusion(data, extrusion.node, extrusion.outcome(), extrusion.problems);
+  if (!solid) return result;
+  const csgcore::Affine to_world = compose(extrusion.to_world(), leaning(data.arguments));
+  result.box = mapped(to_world, solid->box);
+  result.is_faceted = extrusion.is_operand && !data.is_faceted;
+  std::vector<Primitive> parts;
+  if (!extrusion.is_operand) parts = std::move(solid->sheets);
+  parts.push_back(std::move(solid->mesh));
+  csgcore::CsgTreeBuilder builder;
+  for (Primitive& part : parts) {
+    builder.primitive(static_cast<uint32_t>(result.parts.size()));
+    part.local_to_world = to_world;
+    part.id = extrusion.figures.figures.front().id;
+    result.parts.push_back({std::move(part), extrusion.frame, *result.box});
   }
-  if (arguments.lean != Vec2(0.0)) result.map(leaning(arguments));
+  result.solid = builder.finish();
   return result;
+}
+
+LoweredSubtree extruded(const Extrusion& extrusion) {
+  const LinearExtrudeArguments& arguments = std::get<LinearExtrudeNode>(extrusion.data).arguments;
+  if (!(arguments.height > 0)) return {};
+  const TwistedLayers layers = layers_of(arguments);
+  if (layers.is_twisted() && !are_round(extrusion.figures.figures, layers)) {
+    return sliced(extrusion);
+  }
+  return extrude(
+      extrusion.figures,
+      {layers.z_min, layers.z_max, layers.top_scale.x, arguments.lean / arguments.height}, false,
+      extrusion.to_world(), extrusion.frames, extrusion.solids);
 }
 
 LinearExtrudeArguments read_linear_extrude(NodeReader& reader) {
@@ -128,8 +140,7 @@ const NodeRow kLinearExtrudeRow{
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
       return linear_extrude_node(read_linear_extrude(reader), sources.options);
     },
-    .solid = extruded,
-    .lower = lower_linear_extrude,
+    .extruded = extruded,
 };
 
 }  // namespace frontend

@@ -1,21 +1,34 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <memory>
 #include <optional>
-#include <string_view>
+#include <span>
 #include <utility>
 
+#include "language/degrees.hpp"
+#include "meshes/face_set.hpp"
+#include "solids/faceted_box.hpp"
+#include "solids/revolved_solid.hpp"
 #include "solids/smooth_slices.hpp"
+#include "subtrees/extrusions.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/revolutions.hpp"
-#include "subtrees/solid_evaluation.hpp"
 
 namespace frontend {
 namespace {
 
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::CsgTreeBuilder;
+using csgcore::Op;
 using csgcore::Primitive;
+using csgcore::Vec3;
 
 constexpr language::ArgumentName kRotateExtrudeLabel[] = {"angle"};
-constexpr std::string_view kBecauseEdgesCross =
-    "it holds a rotate_extrude whose edges cross too often";
+
+/// More sections cannot be told from a round solid.
+constexpr int kMostSections = 3600;
 
 RotateExtrudeArguments read_rotate_extrude(NodeReader& reader) {
   RotateExtrudeArguments result;
@@ -27,41 +40,188 @@ RotateExtrudeArguments read_rotate_extrude(NodeReader& reader) {
   return result;
 }
 
-SolidValue revolved_in(SolidEvaluation& solids, const TurnSections& sections,
-                       std::optional<SimplePolygons> outline, bool is_left, bool is_smooth) {
-  if (!outline) solids.fail(kBecauseEdgesCross);
-  if (!outline || outline->empty()) return {};
-  const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left);
-  return value_of(faceted_part(revolved_mesh(polygons, sections), is_smooth));
+/// Returns how OpenSCAD divides the turn of a figure that reaches so far from the axis.
+TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius) {
+  TurnSections sections;
+  sections.angle = arguments.angle;
+  const double share = std::abs(arguments.angle) / 360;
+  const double count = csgcore::fragment_count(radius, arguments.facets) * share;
+  const bool is_fine = arguments.facets.tolerance > 0;
+  sections.count = std::max(1, static_cast<int>(is_fine ? std::ceil(count) : count));
+  sections.start = arguments.start.value_or(sections.is_closed() ? 180 : 0);
+  return sections;
 }
 
-SolidValue revolved(SolidEvaluation& solids, uint32_t node) {
-  const RotateExtrudeNode& data = solids.data<RotateExtrudeNode>(node);
-  const std::vector<Figure> figures = solids.figures(node);
-  Rectangle bounds;
-  for (const Figure& figure : figures) bounds.merge(bounds_of(figure));
-  if (bounds.empty() || data.arguments.angle == 0) return {};
-  const std::optional<Rectangle> reach = on_one_side(bounds, solids.node(node), solids.problems());
-  if (!reach) return {};
-  const bool is_left = reach->min.x < 0;
-  TurnSections sections = sections_of(data.arguments, is_left ? -reach->min.x : reach->max.x);
-  if (data.is_faceted && sections.count <= kMostSections) {
-    return revolved_in(solids, sections, frontend::united(figures), is_left, false);
+/// Returns the bounds of a figure on one side of the axis x = 0, so that they end there if they
+/// reach beyond it by less than a figure's rounding. Nothing if it stands on both sides, of which
+/// `problems` is told.
+std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node, NodeProblems& problems) {
+  if (!(bounds.min.x < 0 && bounds.max.x > 0)) return bounds;
+  // OpenSCAD's grid: a figure that reaches less beyond the axis touches it.
+  constexpr double kReachBeyondAxis = 0x1p-16;
+  if (std::min(-bounds.min.x, bounds.max.x) <= kReachBeyondAxis) {
+    (bounds.max.x > -bounds.min.x ? bounds.min.x : bounds.max.x) = 0;
+    return bounds;
   }
-  if (!sections.is_closed()) {
-    sections.count = static_cast<int>(std::ceil(std::abs(sections.angle) / 360 * kSmoothChords));
-    const Chords chords{kSmoothChords, kSmoothTolerance * glm::length(reach->max - reach->min)};
-    return revolved_in(solids, sections, frontend::united(figures, chords), is_left, true);
-  }
-  PlaneMap to_right;
-  if (is_left) to_right.linear[0].x = -1;
-  std::vector<SolidPart> parts;
-  for (const Figure& figure : figures) {
-    std::optional<Primitive> primitive = solids.figure_solids().revolved(mapped(to_right, figure));
-    if (primitive) parts.push_back(part_of(std::move(*primitive), data.arguments.facets));
-  }
-  return union_of(std::move(parts));
+  std::array<char, 160> text;
+  std::snprintf(text.data(), text.size(),
+                ": all points for rotate_extrude() must have the same X coordinate sign "
+                "(range is %.2f -> %.2f)",
+                bounds.min.x, bounds.max.x);
+  problems.add(node, {text.data(), "keep the profile on one side of the Y axis"});
+  return std::nullopt;
 }
+
+/// Returns the polygons without what is beyond the axis x = 0, which is no more than rounding.
+SimplePolygons cut_at_axis(SimplePolygons polygons, bool is_left) {
+  for (Polygon& polygon : polygons) {
+    for (Vec2& point : polygon) {
+      point.x = is_left ? std::min(point.x, 0.0) : std::max(point.x, 0.0);
+    }
+  }
+  return polygons;
+}
+
+/// Revolves figures about the y axis of their plane.
+class Revolving {
+ public:
+  explicit Revolving(const Extrusion& extrusion)
+      : extrusion_(extrusion),
+        to_world_(extrusion.to_world()),
+        data_(std::get<RotateExtrudeNode>(extrusion.data)) {}
+
+  LoweredSubtree run() {
+    LoweredSubtree result;
+    if (data_.arguments.angle == 0) return result;
+    const std::optional<Rectangle> reach = reach_of_figures();
+    if (!reach || reach->empty()) return result;
+    is_left_ = reach->min.x < 0;
+    const double radius = is_left_ ? -reach->min.x : reach->max.x;
+    sections_ = sections_of(data_.arguments, radius);
+    box_ = mapped(to_world_, box_of_rings(*reach));
+    if (is_union(extrusion_.figures.tree)) result.box = box_;
+    if (data_.is_faceted && sections_.count <= kMostSections) {
+      add_mesh(united(extrusion_.outcome()), result);
+    } else if (extrusion_.is_operand && !sections_.is_closed()) {
+      sections_.count =
+          static_cast<int>(std::ceil(std::abs(sections_.angle) / 360 * kSmoothChords));
+      const double size = glm::length(reach->max - reach->min);
+      add_mesh(united(extrusion_.outcome(), {kSmoothChords, kSmoothTolerance * size}), result);
+      result.is_faceted = true;
+    } else {
+      add_figures(result);
+      if (!sections_.is_closed() && !result.solid.empty()) cut(*reach, radius, result);
+    }
+    return result;
+  }
+
+ private:
+  /// Returns the bounds of the result in the plane; nothing if it stands on both sides of the axis.
+  std::optional<Rectangle> reach_of_figures() const {
+    const Rectangle reach = positive_bounds(extrusion_.figures);
+    if (!(reach.min.x < 0 && reach.max.x > 0)) return reach;
+    // What the operations leave may still be on one side.
+    const std::optional<SimplePolygons> outline = united(extrusion_.outcome());
+    if (!outline) {
+      note_crossings();
+      return std::nullopt;
+    }
+    return on_one_side(bounds_of(*outline), extrusion_.node, extrusion_.problems);
+  }
+
+  void note_crossings() const {
+    extrusion_.problems.add(extrusion_.node, {" is left out: its edges cross too often",
+                                              "let its outline not cross itself"});
+  }
+
+  /// Returns the box of the corners that OpenSCAD's rings have.
+  Box box_of_rings(const Rectangle& reach) const {
+    Box box;
+    TurnSections sections = sections_;
+    sections.count = std::min(sections.count, kMostSections);
+    for (int ring = 0; ring <= sections.count; ++ring) {
+      const double azimuth = sections.azimuth(ring);
+      const Vec2 direction(language::cosine_of_degrees(azimuth),
+                           language::sine_of_degrees(azimuth));
+      box.merge(Vec3(reach.min.x * direction, reach.min.y));
+      box.merge(Vec3(reach.max.x * direction, reach.max.y));
+    }
+    return box;
+  }
+
+  void add_figures(LoweredSubtree& result) const {
+    PlaneMap to_right;
+    if (is_left_) to_right.linear[0].x = -1;
+    Affine place;
+    if (is_left_) place = turned_about_z(180);
+    result.solid = tree_of_parts(
+        extrusion_.figures, result.parts,
+        [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
+          std::optional<Primitive> primitive =
+              extrusion_.solids.revolved(mapped(compose(to_right, placed.place()), *placed.figure));
+          if (!primitive) return std::nullopt;
+          primitive->local_to_world = compose(compose(to_world_, place), primitive->local_to_world);
+          return LoweredSubtree::Part{std::move(*primitive), extrusion_.frame, box_,
+                                      data_.arguments.facets};
+        });
+  }
+
+  void add_mesh(std::optional<SimplePolygons> outline, LoweredSubtree& result) const {
+    if (!outline) note_crossings();
+    if (!outline || outline->empty()) return;
+    const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left_);
+    result.box = mapped(to_world_, box_of_rings(bounds_of(polygons)));
+    Primitive mesh = revolved_mesh(polygons, sections_);
+    std::vector<csgcore::TriangleMesh::Triangle> sheet =
+        sheet_of(mesh.mesh()->vertices(), mesh.mesh()->triangles());
+    if (!sheet.empty() && !extrusion_.is_operand) {
+      const std::span<const Vec3> vertices = mesh.mesh()->vertices();
+      mesh = csgcore::make_mesh(std::make_shared<csgcore::TriangleMesh>(
+          std::vector<Vec3>(vertices.begin(), vertices.end()), std::move(sheet)));
+      extrusion_.problems.add(
+          extrusion_.node,
+          {" has no volume", "it is drawn as a thin sheet: give it more fragments"});
+    }
+    mesh.local_to_world = to_world_;
+    mesh.id = extrusion_.figures.figures.front().id;
+    result.parts.push_back({std::move(mesh), extrusion_.frame, *result.box});
+    CsgTreeBuilder builder;
+    builder.primitive(0);
+    result.solid = builder.finish();
+  }
+
+  /// Leaves of a full turn what a partial one reaches.
+  void cut(const Rectangle& reach, double radius, LoweredSubtree& result) const {
+    const double angle = std::abs(sections_.angle);
+    const double first = sections_.start + std::min(sections_.angle, 0.0) + (is_left_ ? 180 : 0);
+    const bool is_convex = angle <= 180;
+    Primitive wedge =
+        extrusion_.solids.wedge(is_convex ? angle : 360 - angle, radius, reach.min.y, reach.max.y);
+    wedge.local_to_world =
+        compose(compose(to_world_, turned_about_z(is_convex ? first : first + angle)),
+                wedge.local_to_world);
+    wedge.id = result.parts.front().primitive.id;
+    CsgTreeBuilder builder;
+    builder.open(is_convex ? Op::kIntersection : Op::kDifference);
+    rebuild(result.solid.tokens(), builder,
+            [](CsgTreeBuilder& to, uint32_t index) { to.primitive(index); });
+    builder.primitive(static_cast<uint32_t>(result.parts.size()));
+    builder.close();
+    result.solid = builder.finish();
+    result.parts.push_back({std::move(wedge), extrusion_.frame, box_});
+  }
+
+  static Affine turned_about_z(double angle) {
+    return {euler_rotation(Vec3(0, 0, angle)), Vec3(0.0)};
+  }
+
+  const Extrusion& extrusion_;
+  Affine to_world_;
+  const RotateExtrudeNode& data_;
+  TurnSections sections_;
+  bool is_left_ = false;
+  Box box_;
+};
 
 }  // namespace
 
@@ -77,8 +237,7 @@ const NodeRow kRotateExtrudeRow{
       result.is_faceted = keeps_facets(sources.options, result.arguments.facets);
       return result;
     },
-    .solid = revolved,
-    .lower = lower_rotate_extrude,
+    .extruded = [](const Extrusion& extrusion) { return Revolving(extrusion).run(); },
 };
 
 }  // namespace frontend

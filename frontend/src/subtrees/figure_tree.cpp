@@ -8,26 +8,26 @@ using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 using csgcore::Vec3;
 
-/// Writes the subtree's operations, from the outside in.
+/// Writes the operations of a node, from the outside in.
 class FigureTreeWriter {
  public:
   FigureTreeWriter(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                   uint32_t root_frame, FrameTree& frames)
-      : subtree_(subtree), evaluation_(evaluation), frames_(frames) {
-    open_.push_back({subtree.end(), root_frame, {}});
-  }
+                   FrameTree& frames)
+      : subtree_(subtree), evaluation_(evaluation), frames_(frames) {}
 
-  FigureTree write() {
-    const bool is_extrusion = subtree_.row(subtree_.root()).is_extrusion();
-    if (is_extrusion && subtree_.drawing(subtree_.root()) != nullptr) {
-      add_figures(subtree_.root());
+  FigureTree write(uint32_t root, uint32_t frame) {
+    const uint32_t end = subtree_.end_of(root);
+    open_.push_back({end, frame, {}});
+    const bool is_extrusion = subtree_.row(root).is_extrusion();
+    if (is_extrusion && subtree_.drawing(root) != nullptr) {
+      add_figures(root);
       return {std::move(figures_), builder_.finish()};
     }
-    for (uint32_t i = subtree_.root() + (is_extrusion ? 1 : 0); i < subtree_.end();) {
+    for (uint32_t i = root + (is_extrusion ? 1 : 0); i < end;) {
       close_until(i);
       i = enter(i);
     }
-    close_until(subtree_.end());
+    close_until(end);
     return {std::move(figures_), builder_.finish()};
   }
 
@@ -125,8 +125,19 @@ class FigureTreeWriter {
 }  // namespace
 
 FigureTree figure_tree(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                       uint32_t frame, FrameTree& frames) {
-  return FigureTreeWriter(subtree, evaluation, frame, frames).write();
+                       uint32_t node, uint32_t frame, FrameTree& frames) {
+  return FigureTreeWriter(subtree, evaluation, frames).write(node, frame);
+}
+
+FigureTree union_of(std::span<const Figure> figures, uint32_t frame, uint32_t id) {
+  FigureTree result;
+  CsgTreeBuilder builder;
+  for (const Figure& figure : figures) {
+    builder.primitive(static_cast<uint32_t>(result.figures.size()));
+    result.figures.push_back({std::make_shared<const Figure>(figure), {}, frame, id});
+  }
+  result.tree = builder.finish();
+  return result;
 }
 
 Rectangle faceted_bounds(const PlacedFigure& placed) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@
 
 namespace frontend {
 
-/// A figure where it stands in the subtree.
+/// A figure where it stands in the plane of a node, the root, around it.
 struct PlacedFigure {
   std::shared_ptr<const Figure> figure;
   PlaneMap map;    // of its node, to the root's plane
@@ -39,10 +40,13 @@ struct FigureTree {
   csgcore::CsgTree tree;  // over their indices
 };
 
-/// Returns the operations of the subtree. `frame` is where the root stands; adds frames. Of an
-/// extrusion that is the root, they are those of its children.
+/// Returns the operations of a node of the subtree, which stands in `frame`; adds frames. Of an
+/// extrusion they are those of its children. The places lead to the plane of that node.
 FigureTree figure_tree(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                       uint32_t frame, FrameTree& frames);
+                       uint32_t node, uint32_t frame, FrameTree& frames);
+
+/// Returns the union of figures that stand where the node does.
+FigureTree union_of(std::span<const Figure> figures, uint32_t frame, uint32_t id);
 
 /// Returns the bounds of the corners that OpenSCAD has of the figure, in the root's plane.
 Rectangle faceted_bounds(const PlacedFigure& placed);

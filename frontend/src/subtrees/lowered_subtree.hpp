@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "csgcore/csg_tree.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
 
@@ -13,9 +14,10 @@ namespace frontend {
 
 struct LoweredSubtree {
   struct Part {
-    csgcore::Primitive primitive;  // under its matrices, without a colour
-    uint32_t frame;                // FrameTree
-    csgcore::Box box;              // of the corners that OpenSCAD's facets have, in the world
+    csgcore::Primitive primitive;     // under its matrices, without a colour
+    uint32_t frame;                   // FrameTree
+    csgcore::Box box;                 // of the corners that OpenSCAD's facets have, in the world
+    csgcore::FacetSettings facets{};  // of what is round
   };
   std::vector<Part> parts;
   csgcore::CsgTree solid;  // over the parts

@@ -16,12 +16,9 @@
 
 namespace frontend {
 
-class FigureSolids;
-class FrameTree;
 class PlaneEvaluation;
-class PlaneSubtree;
 class SolidEvaluation;
-struct FigureTree;
+struct Extrusion;
 struct LoweredSubtree;
 struct SolidValue;
 
@@ -73,11 +70,9 @@ struct NodeRow {
   std::optional<std::vector<Figure>> (*figures)(PlaneEvaluation& planes, uint32_t node) = nullptr;
   /// Returns the node's solid from those of its operands. Null: `op` is what it does with them.
   SolidValue (*solid)(SolidEvaluation& solids, uint32_t node) = nullptr;
-  /// Of an extrusion: returns the primitives of a subtree whose root it is, which stands in
-  /// `frame`, from the operations on its figures. Null: they are those of `solid`.
-  LoweredSubtree (*lower)(const PlaneSubtree& subtree, PlaneEvaluation& planes,
-                          const FigureTree& figures, uint32_t frame, const FrameTree& frames,
-                          FigureSolids& solids, NodeProblems& problems) = nullptr;
+  /// Of an extrusion: returns the primitives, with the operations on its figures. Null: they are
+  /// those of `solid`.
+  LoweredSubtree (*extruded)(const Extrusion& extrusion) = nullptr;
 
   bool is_extrusion() const { return takes_figures && dimension == 3; }
   /// Returns whether it has a place among Primitive::id, though it names no drawing.

@@ -87,7 +87,7 @@ class PlaneEvaluation {
 
   /// Returns whether the node is an extrusion whose solid is asked for, and not its figures alone.
   bool is_solid_extrusion(uint32_t node) const {
-    const bool is_lowered = node == subtree_.root() && row(node).lower != nullptr;
+    const bool is_lowered = node == subtree_.root() && row(node).extruded != nullptr;
     return row(node).is_extrusion() && !is_lowered;
   }
   Node& at(uint32_t node) { return nodes_[node - subtree_.root()]; }

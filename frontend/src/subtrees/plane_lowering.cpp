@@ -1,6 +1,7 @@
 #include "subtrees/plane_lowering.hpp"
 
-#include <memory>
+#include <functional>
+#include <span>
 
 #include "solids/faceted_box.hpp"
 #include "subtrees/extrusions.hpp"
@@ -11,7 +12,6 @@ namespace {
 
 using csgcore::Affine;
 using csgcore::Box;
-using csgcore::CsgTreeBuilder;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
@@ -20,33 +20,16 @@ constexpr double kPlateThickness = 1;
 /// A plate that is subtracted is thicker by this factor.
 constexpr double kSubtractedPlateStretch = 1.1;
 
-/// Returns OpenSCAD's box of a plane figure: that of what the operations leave.
-Box box_of_rest(PlaneEvaluation& evaluation, uint32_t root, const Affine& root_to_world) {
-  evaluation.find_all_figures();
+/// Returns the box of figures in the plane z = 0.
+Box box_of(std::span<const Figure> figures, const Affine& root_to_world) {
   Box box;
-  for (const Figure& figure : evaluation.figures(root)) {
+  for (const Figure& figure : figures) {
     const Rectangle bounds = bounds_of(figure);
     if (bounds.empty()) continue;
     box.merge(Vec3(bounds.min, 0));
     box.merge(Vec3(bounds.max, 0));
   }
   return box.empty() ? box : mapped(root_to_world, box);
-}
-
-/// Returns what the operations leave, without them: they may leave so little of large figures that
-/// a thin plate of it would be below the renderers' tolerance.
-FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uint32_t root,
-                     uint32_t frame) {
-  evaluation.find_all_figures();
-  FigureTree result;
-  CsgTreeBuilder builder;
-  for (const Figure& figure : evaluation.figures(root)) {
-    builder.primitive(static_cast<uint32_t>(result.figures.size()));
-    result.figures.push_back(
-        {std::make_shared<const Figure>(figure), {}, frame, figures.figures.front().id});
-  }
-  result.tree = builder.finish();
-  return result;
 }
 
 /// Returns a share of the figure's size that is below a pixel.
@@ -61,21 +44,30 @@ double flat_thickness(const FigureTree& figures) {
 LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, Plate plate,
                              uint32_t frame, FrameTree& frames, FigureSolids& solids,
                              NodeProblems& problems) {
-  const FigureTree figures = figure_tree(subtree, evaluation, frame, frames);
+  const uint32_t root = subtree.root();
+  const FigureTree figures = figure_tree(subtree, evaluation, root, frame, frames);
   const Affine root_to_world = frames[frame].to_world;
-  const NodeRow& row = subtree.row(subtree.root());
-  if (row.lower != nullptr) {
-    return row.lower(subtree, evaluation, figures, frame, frames, solids, problems);
+  const std::function<std::span<const Figure>()> outcome = [&] {
+    evaluation.find_all_figures();
+    return std::span<const Figure>(evaluation.figures(root));
+  };
+  const NodeRow& row = subtree.row(root);
+  if (row.extruded != nullptr) {
+    return row.extruded({subtree.syntax(root), subtree.data(root), figures, outcome, frame, frames,
+                         solids, problems});
   }
   if (plate == Plate::kFlat) {
-    const FigureTree rest = evaluated(figures, evaluation, subtree.root(), frame);
+    // Without the operations: they may leave so little of large figures that a thin plate of it
+    // would be below the renderers' tolerance.
+    const FigureTree rest = union_of(outcome(), frame, figures.figures.front().id);
     const double thickness = flat_thickness(rest);
     return extrude(rest, {-thickness / 2, thickness / 2, 1}, true, root_to_world, frames, solids);
   }
   LoweredSubtree result = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
                                   root_to_world, frames, solids);
+  // OpenSCAD's box is that of what the operations leave.
   if (!result.is_union) {
-    result.box = box_of_rest(evaluation, subtree.root(), root_to_world);
+    result.box = box_of(outcome(), root_to_world);
   }
   return result;
 }

@@ -4,8 +4,10 @@
 
 #include "base/primitive_traits.hpp"
 #include "csgcore/stop_scope.hpp"
+#include "solids/leaves.hpp"
 #include "solids/sections.hpp"
 #include "solids/shadows.hpp"
+#include "subtrees/extrusions.hpp"
 
 namespace frontend {
 
@@ -79,6 +81,7 @@ std::vector<SolidValue> SolidEvaluation::operands(uint32_t node) {
 SolidValue SolidEvaluation::evaluate(uint32_t node) {
   const NodeRow& row = subtree_.row(node);
   if (row.role == Role::kSolid) return solid_of_leaf(node);
+  if (row.extruded != nullptr) return solid_of_extrusion(node);
   return row.solid == nullptr ? combined(row.op, operands(node)) : row.solid(*this, node);
 }
 
@@ -95,6 +98,28 @@ SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
     part.primitive = std::move(shape->primitive);
   }
   return value_of(std::move(part));
+}
+
+SolidValue SolidEvaluation::solid_of_extrusion(uint32_t node) {
+  FrameTree frames;
+  FigureTree figures = figure_tree(subtree_, planes_, node, 0, frames);
+  if (figures.figures.empty()) return {};
+  const std::vector<Figure> outcome = planes_.union_of_operands(node);
+  // What is needed is the surface: operations are done in the plane.
+  if (!is_union(figures.tree)) figures = union_of(outcome, 0, subtree_.id(node));
+  LoweredSubtree lowered =
+      subtree_.row(node).extruded({subtree_.syntax(node), subtree_.data(node), figures,
+                                   [&] { return std::span<const Figure>(outcome); }, 0, frames,
+                                   figure_solids_, problems_, true});
+  SolidValue result{{}, std::move(lowered.solid)};
+  for (LoweredSubtree::Part& part : lowered.parts) {
+    SolidPart& own = result.parts.emplace_back();
+    own.primitive = std::move(part.primitive);
+    own.facets = part.facets;
+    own.is_faceted = lowered.is_faceted;
+    own.box = part.box;
+  }
+  return result;
 }
 
 std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value, int least_chords) {

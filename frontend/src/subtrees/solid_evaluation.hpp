@@ -35,19 +35,14 @@ class SolidEvaluation {
   std::string_view failure() const { return failure_; }
 
   // For the rows of nodes:
-  const Node& node(uint32_t node) const { return subtree_.syntax(node); }
   template <typename Data>
   const Data& data(uint32_t node) const {
     return subtree_.data<Data>(node);
   }
   /// Returns the values of the operands that count, in their order; the nodes lose them.
   std::vector<SolidValue> operands(uint32_t node);
-  /// Returns the figures of the operands of an extrusion.
-  std::vector<Figure> figures(uint32_t node) const { return planes_.union_of_operands(node); }
   /// Returns parts whose union is the value, as far as that can be found (SolidUnion).
   std::vector<SolidPart> united(const SolidValue& value, int least_chords = kChordsOfCutDisc);
-  FigureSolids& figure_solids() { return figure_solids_; }
-  NodeProblems& problems() { return problems_; }
   /// Nothing more is evaluated.
   void fail(std::string_view why);
 
@@ -58,6 +53,7 @@ class SolidEvaluation {
   std::optional<FigureOperations> shadow(const SolidValue& value);
   SolidValue evaluate(uint32_t node);
   SolidValue solid_of_leaf(uint32_t node);
+  SolidValue solid_of_extrusion(uint32_t node);
 
   const PlaneSubtree& subtree_;
   const PlaneEvaluation& planes_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "csgcore/triangle_mesh.hpp"
@@ -452,6 +453,23 @@ TEST(RotateExtrude, TakesProfilesOfEitherSide) {
               HasSubstr("rotate_extrude: all points for rotate_extrude() must have the same X "
                         "coordinate sign (range is -1.00 -> 2.00)"));
   EXPECT_EQ(model_of(both + "cube(1);"), "1");
+}
+
+TEST(RotateExtrude, IsLeftOutIfItsEdgesCrossTooOften) {
+  // Each of the star's edges crosses nearly all others.
+  constexpr int kPoints = 1101;
+  std::string star = "polygon([";
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2 * std::numbers::pi * i * (kPoints / 2) / kPoints;
+    star += "[" + std::to_string(9 + 8 * std::cos(angle)) + "," +
+            std::to_string(8 * std::sin(angle)) + "],";
+  }
+  star += "]);";
+  for (const std::string& design :
+       {revolved(star, "$fn = 5"), "hull() {" + revolved(star, "$fn = 5") + "}"}) {
+    EXPECT_THAT(warning_of(design), HasSubstr("rotate_extrude is left out: its edges cross too"));
+    EXPECT_EQ(model_of(design + "cube(1);"), "1");
+  }
 }
 
 TEST(RotateExtrude, OfPartOfATurn) {

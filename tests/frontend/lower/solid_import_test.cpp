@@ -470,6 +470,16 @@ TEST(SolidResize, OfATurnTakesItsCorners) {
   EXPECT_NEAR(design.view_box.max.y, 6, 1e-12);
 }
 
+TEST(SolidResize, OfAnExtrudedCircleTakesItsCorners) {
+  // None of the 50 lies on the y axis: they end at 9.98.
+  const Inside inside(
+      "resize([20, 20, 0]) { linear_extrude(height = 1) { circle(10, $fn = 50); } }");
+  EXPECT_TRUE(inside(0, 10.01, 0.5));
+  EXPECT_FALSE(inside(0, 10.03, 0.5));
+  EXPECT_TRUE(inside(9.99, 0, 0.5));
+  EXPECT_FALSE(inside(10.01, 0, 0.5));
+}
+
 TEST(SolidResize, KeepsOperationsWhoseBoxItCanFind) {
   const Inside inside("resize([20, 20, 20]) { difference() { cube(10); " +
                       at(2, 2, -1, "cube([2, 2, 20]);") + "} }");
