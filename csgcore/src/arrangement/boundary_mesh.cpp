@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "arrangement/cell_tree.hpp"
 #include "arrangement/facet_grid.hpp"
 #include "arrangement/manifold_edges.hpp"
 #include "arrangement/merged_faces.hpp"
 #include "arrangement/pieces.hpp"
+#include "arrangement/separate_parts.hpp"
 #include "arrangement/sheets.hpp"
 #include "arrangement/simple_surfaces.hpp"
 #include "csgcore/stop_scope.hpp"
@@ -134,15 +136,81 @@ class BoundaryMaker {
   std::vector<KeptFace> kept_;  // by a patch's first piece
 };
 
-}  // namespace
+/// Returns the mesh of the one operand that there is, whose surface neither crosses nor touches
+/// itself: it is the boundary.
+BoundaryMesh mesh_of_simple(const Facets& facets) {
+  BoundaryMesh result;
+  std::vector<uint32_t> number_of(facets.points.size(), kNoPlace);
+  for (const Facet& facet : facets.facets) {
+    std::array<uint32_t, 3>& triangle = result.triangles.emplace_back();
+    for (size_t i = 0; i < 3; ++i) {
+      uint32_t& number = number_of[facet.corners[i]];
+      if (number == kNoPlace) {
+        number = static_cast<uint32_t>(result.vertices.size());
+        result.vertices.push_back(facets.to_world(to_vec3(facets.points[facet.corners[i]])));
+      }
+      triangle[i] = number;
+    }
+  }
+  result.operands.assign(result.triangles.size(), 0);
+  return result;
+}
 
-BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree& tree) {
+BoundaryMesh mesh_of_part(std::span<const TriangleSet> all, const SeparatePart& part) {
+  std::vector<const TriangleSet*> operands;
+  for (const uint32_t operand : part.operands) operands.push_back(&all[operand]);
   Facets facets = facets_on_grid(operands);
   const std::vector<bool> may_cross_itself = find_simple_surfaces(operands, facets);
-  const CellTree cells(facets, tree, may_cross_itself);
+  const bool is_simple =
+      part.tokens.size() == 1 && !may_cross_itself[0] && facets.touches.empty();
+  if (is_simple) return mesh_of_simple(facets);
+  const CellTree cells(facets, part.tokens, may_cross_itself);
   const Sheets sheets = sheets_of(facets, cells.pairs());
   const Pieces pieces(facets, cells, sheets);
   return BoundaryMaker(facets, may_cross_itself, cells, pieces).run();
+}
+
+/// Returns all of them; the operands of each are places in those of its part.
+BoundaryMesh joined(std::vector<BoundaryMesh>& meshes, std::span<const SeparatePart> parts) {
+  struct Begin {
+    size_t vertex = 0;
+    size_t triangle = 0;
+  };
+  std::vector<Begin> begins{{}};
+  for (const BoundaryMesh& mesh : meshes) {
+    const auto& [vertex, triangle] = begins.back();
+    begins.push_back({vertex + mesh.vertices.size(), triangle + mesh.triangles.size()});
+  }
+  BoundaryMesh result;
+  result.vertices.resize(begins.back().vertex);
+  result.triangles.resize(begins.back().triangle);
+  result.operands.resize(begins.back().triangle);
+  tbb::parallel_for(size_t{0}, meshes.size(), [&](size_t i) {
+    const auto& [vertex, triangle] = begins[i];
+    const BoundaryMesh mesh = std::exchange(meshes[i], {});
+    std::ranges::copy(mesh.vertices, result.vertices.begin() + static_cast<std::ptrdiff_t>(vertex));
+    for (size_t j = 0; j < mesh.triangles.size(); ++j) {
+      for (size_t k = 0; k < 3; ++k) {
+        result.triangles[triangle + j][k] = static_cast<uint32_t>(vertex) + mesh.triangles[j][k];
+      }
+      result.operands[triangle + j] = parts[i].operands[mesh.operands[j]];
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+BoundaryMesh boundary_mesh(std::span<const TriangleSet> operands, const CsgTree& tree) {
+  const std::vector<SeparatePart> parts = separate_parts(operands, tree);
+  std::vector<BoundaryMesh> meshes(parts.size());
+  const std::stop_token* const stop = stop_of_work;
+  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) {
+    const StopScope scope(stop);
+    stop_point();
+    meshes[i] = mesh_of_part(operands, parts[i]);
+  });
+  return joined(meshes, parts);
 }
 
 }  // namespace csgcore

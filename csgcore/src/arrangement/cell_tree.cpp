@@ -83,9 +83,9 @@ class CellTree::Builder {
     });
   }
 
-  void run(const CsgTree& tree, CellTree& result) {
+  void run(std::span<const CsgToken> tree, CellTree& result) {
     auto root = std::make_unique<Cell>();
-    root->tokens.assign(tree.tokens().begin(), tree.tokens().end());
+    root->tokens.assign(tree.begin(), tree.end());
     root->facets.resize(boxes_.size());
     std::iota(root->facets.begin(), root->facets.end(), 0u);
     for (const GridPoint& point : facets_.points) {
@@ -364,7 +364,7 @@ class CellTree::Builder {
   tbb::enumerable_thread_specific<Found> found_;
 };
 
-CellTree::CellTree(const Facets& facets, const CsgTree& tree,
+CellTree::CellTree(const Facets& facets, std::span<const CsgToken> tree,
                    const std::vector<bool>& may_cross_itself)
     : facets_(facets) {
   Builder(*this, may_cross_itself).run(tree, *this);

@@ -25,7 +25,8 @@ struct KeptFace {
 class CellTree {
  public:
   /// Keeps references to all arguments.
-  CellTree(const Facets& facets, const CsgTree& tree, const std::vector<bool>& may_cross_itself);
+  CellTree(const Facets& facets, std::span<const CsgToken> tree,
+           const std::vector<bool>& may_cross_itself);
   ~CellTree();
   CellTree(const CellTree&) = delete;
   CellTree& operator=(const CellTree&) = delete;

@@ -38,10 +38,10 @@ class PointNumbers {
 };
 
 /// Sets the map to the grid.
-void set_grid(Facets& facets, std::span<const TriangleSet> operands) {
+void set_grid(Facets& facets, Surfaces operands) {
   Box box;
-  for (const TriangleSet& operand : operands) {
-    for (const Vec3& vertex : operand.vertices) box.merge(vertex);
+  for (const TriangleSet* operand : operands) {
+    for (const Vec3& vertex : operand->vertices) box.merge(vertex);
   }
   if (box.empty()) return;
   const auto largest = [](const Vec3& x) { return std::max({x.x, x.y, x.z}); };
@@ -132,14 +132,14 @@ void find_touches(Facets& result, std::vector<Facet> flat) {
 
 }  // namespace
 
-Facets facets_on_grid(std::span<const TriangleSet> operands) {
+Facets facets_on_grid(Surfaces operands) {
   Facets result;
   set_grid(result, operands);
   size_t vertices = 0;
   size_t triangles = 0;
-  for (const TriangleSet& operand : operands) {
-    vertices += operand.vertices.size();
-    triangles += operand.triangles.size();
+  for (const TriangleSet* operand : operands) {
+    vertices += operand->vertices.size();
+    triangles += operand->triangles.size();
   }
   result.points.reserve(vertices);
   result.facets.reserve(triangles);
@@ -148,12 +148,12 @@ Facets facets_on_grid(std::span<const TriangleSet> operands) {
   std::vector<uint32_t> number_of;
   for (uint32_t i = 0; i < operands.size(); ++i) {
     number_of.clear();
-    for (const Vec3& vertex : operands[i].vertices) {
+    for (const Vec3& vertex : operands[i]->vertices) {
       const Vec3 scaled = (vertex - result.middle) * result.scale;
       number_of.push_back(
           numbers.number({on_grid(scaled.x), on_grid(scaled.y), on_grid(scaled.z)}));
     }
-    for (const auto& triangle : operands[i].triangles) {
+    for (const auto& triangle : operands[i]->triangles) {
       const Facet facet{{number_of[triangle[0]], number_of[triangle[1]], number_of[triangle[2]]},
                         i};
       const auto& [a, b, c] = facet.corners;

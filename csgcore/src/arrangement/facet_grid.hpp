@@ -51,7 +51,10 @@ struct Facets {
   }
 };
 
-Facets facets_on_grid(std::span<const TriangleSet> operands);
+/// The operands of boundary_mesh(), or some of them.
+using Surfaces = std::span<const TriangleSet* const>;
+
+Facets facets_on_grid(Surfaces operands);
 
 /// What defines a point of the arrangement. One point may have several names.
 struct PointName {

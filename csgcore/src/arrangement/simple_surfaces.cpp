@@ -132,7 +132,7 @@ bool is_convex(const Facets& facets, std::span<const Facet> surface) {
 
 }  // namespace
 
-std::vector<bool> find_simple_surfaces(std::span<const TriangleSet> operands, Facets& facets) {
+std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
   std::vector<std::span<Facet>> surfaces(operands.size());
   for (size_t begin = 0; begin < facets.facets.size();) {
     size_t end = begin + 1;
@@ -148,7 +148,7 @@ std::vector<bool> find_simple_surfaces(std::span<const TriangleSet> operands, Fa
     stop_point();
     const std::span<Facet> surface = surfaces[i];
     if (surface.empty()) return;
-    if (!operands[i].is_simple && !is_convex(facets, surface)) {
+    if (!operands[i]->is_simple && !is_convex(facets, surface)) {
       may_cross[i] = 1;
       return;
     }

@@ -1,17 +1,15 @@
 // Which surfaces do not cross or touch themselves.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "arrangement/facet_grid.hpp"
-#include "csgcore/triangle_set.hpp"
 
 namespace csgcore {
 
 /// Returns by operand whether its surface may cross itself or touch itself, or be in several
 /// pieces: one may that is neither said to be simple nor the boundary of a convex solid. Others are
 /// turned so that their facets face outwards.
-std::vector<bool> find_simple_surfaces(std::span<const TriangleSet> operands, Facets& facets);
+std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets);
 
 }  // namespace csgcore

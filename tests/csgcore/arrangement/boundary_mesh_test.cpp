@@ -17,6 +17,7 @@
 #include <random>
 #include <stop_token>
 
+#include "arrangement/separate_parts.hpp"
 #include "base/worker_threads.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/stop_scope.hpp"
@@ -266,6 +267,82 @@ TEST(BoundaryMesh, KeepsPartsThatAreApart) {
     cubes.push_back(cube(2.0 * Vec3(i % 10, i / 10 % 10, i / 100), 1));
   }
   expect_mesh(sound_mesh(Op::kUnion, cubes), {12'000, 8'000, 1'000, 6'000});
+}
+
+TEST(BoundaryMesh, RoundsPartsThatAreApartByThemselves) {
+  // On a grid for all of them the small ones would be off by a thousandth of their size.
+  constexpr double kSide = 1e-3;
+  CsgTreeBuilder builder;
+  builder.primitive(0);
+  builder.open(Op::kDifference);
+  builder.primitive(1);
+  builder.primitive(2);
+  builder.close();
+  const std::vector<MeshParts> operands{cube({0, 0, 0}, 1e6), cube({-2, 0.3, 0.7}, kSide),
+                                        cube({-2 + kSide / 3, 0.3, 0.7}, kSide)};
+  BoundaryMesh mesh = csgcore::boundary_mesh(surfaces_of(operands), builder.finish());
+  EXPECT_EQ(test_support::manifold_flaw(mesh), "");
+  TriangleSet small{mesh.vertices, {}};
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.operands[t] != 0) small.triangles.push_back(mesh.triangles[t]);
+  }
+  EXPECT_EQ(small.triangles.size(), 12u);
+  const double volume = kSide * kSide * kSide / 3;
+  EXPECT_NEAR(double(test_support::volume_of(small)), volume, 1e-9 * volume);
+}
+
+/// Returns the operands of each part of the union.
+std::vector<std::vector<uint32_t>> parts_of_union(const std::vector<MeshParts>& operands) {
+  CsgTreeBuilder builder;
+  for (uint32_t i = 0; i < operands.size(); ++i) builder.primitive(i);
+  std::vector<std::vector<uint32_t>> result;
+  for (const auto& part : csgcore::separate_parts(surfaces_of(operands), builder.finish())) {
+    EXPECT_EQ(part.tokens.size(), part.operands.size() + (part.operands.size() > 1 ? 1 : 0));
+    result.push_back(part.operands);
+  }
+  return result;
+}
+
+TEST(SeparateParts, AreFoundAlongEachAxis) {
+  using testing::ElementsAre;
+  // The long box bars the way along x until y has parted it from the others.
+  EXPECT_THAT(parts_of_union({cube({4, 0, 0}, 1), box({0, 5, 0}, {9, 1, 1}), cube({1, 0, 0}, 1),
+                              cube({1, 0, 3}, 1), cube({1.5, 0.5, 3.5}, 1)}),
+              ElementsAre(ElementsAre(0u), ElementsAre(1u), ElementsAre(2u), ElementsAre(3u, 4u)));
+}
+
+TEST(SeparateParts, OfBoxesThatTouchAreOne) {
+  using testing::ElementsAre;
+  const double gap = 0x1p-40;
+  EXPECT_THAT(parts_of_union({cube({0, 0, 0}, 1), cube({1, 0, 0}, 1)}),
+              ElementsAre(ElementsAre(0u, 1u)));
+  EXPECT_THAT(parts_of_union({cube({0, 0, 0}, 1), cube({1 + gap, 0, 0}, 1)}),
+              ElementsAre(ElementsAre(0u, 1u)));
+}
+
+TEST(SeparateParts, HaveTheBoxOfWhatIsNotSubtracted) {
+  CsgTreeBuilder builder;
+  builder.open(Op::kDifference);
+  builder.primitive(0);
+  builder.primitive(1);
+  builder.close();
+  builder.open(Op::kIntersection);
+  builder.primitive(2);
+  builder.primitive(1);
+  builder.close();
+  builder.open(Op::kIntersection);
+  builder.primitive(0);
+  builder.primitive(2);
+  builder.close();
+  const auto parts = csgcore::separate_parts(
+      surfaces_of({cube({0, 0, 0}, 1), cube({-9, -9, -9}, 99), cube({5, 0, 0}, 1)}),
+      builder.finish());
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_THAT(parts[0].operands, testing::ElementsAre(0u, 1u));
+  EXPECT_THAT(parts[1].operands, testing::ElementsAre(1u, 2u));
+  EXPECT_EQ(parts[1].tokens[0].value, 1u);
+  EXPECT_EQ(parts[1].tokens[1].value, 0u);
+  EXPECT_EQ(parts[1].tokens[2].op, Op::kIntersection);
 }
 
 TEST(BoundaryMesh, SubtractsAllFurtherOperands) {
