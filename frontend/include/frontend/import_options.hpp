@@ -12,7 +12,7 @@
 
 namespace frontend {
 
-class HullPool;
+class SolidPool;
 
 /// Which round primitives become the polyhedra that OpenSCAD makes of them (frontend/OPENSCAD.md,
 /// "Facets"); the others are exact quadrics.
@@ -60,9 +60,9 @@ struct ImportOptions {
   bool keeps_places = false;
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
-  /// The hulls of solids of the design's last version, of which those that are the same are not
-  /// made anew. Null: the design has no version before.
-  std::shared_ptr<HullPool> hulls{};
+  /// The hulls and the outcomes of operations of the design's last version, of which those that are
+  /// the same are not made anew. Null: the design has no version before.
+  std::shared_ptr<SolidPool> solids{};
 };
 
 }  // namespace frontend

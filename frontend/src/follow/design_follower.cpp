@@ -21,7 +21,7 @@
 #include "frontend/files.hpp"
 #include "frontend/stop.hpp"
 #include "language/evaluation_cache.hpp"
-#include "solids/hull_pool.hpp"
+#include "solids/solid_pool.hpp"
 
 namespace frontend {
 namespace {
@@ -206,7 +206,7 @@ class DesignFollower::Follower {
   DesignFileOptions file_options() {
     DesignFileOptions options;
     options.import = options_.import;
-    options.import.hulls = hulls_;
+    options.import.solids = solids_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
     options.camera = language::CameraChoice::kWindow;
@@ -290,8 +290,8 @@ class DesignFollower::Follower {
   // Used by the watching thread alone.
   FileWatch watch_;
   std::vector<std::string> files_;  // watched files, by their names
-  /// The hulls of the last version that was read to its end.
-  const std::shared_ptr<HullPool> hulls_ = std::make_shared<HullPool>(HullPool::Keeps::kAll);
+  /// Solids of the last version that was read to its end.
+  const std::shared_ptr<SolidPool> solids_ = std::make_shared<SolidPool>(SolidPool::Keeps::kAll);
   /// What the evaluator keeps of the last version.
   const std::shared_ptr<language::EvaluationCache> cache_ =
       std::make_shared<language::EvaluationCache>();

@@ -127,7 +127,7 @@ Collector::Collector(const DesignTree& tree, const ImportOptions& options)
       fonts(options.font_files),
       tree_(*tree.nodes),
       options_(options),
-      hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
+      solids_(options.solids ? options.solids : std::make_shared<SolidPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
 }
 
@@ -525,13 +525,14 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
                                 NodeProblems& told, PlaneLeaf& leaf) {
   const uint32_t root = subtree.root();
   const auto miss = [&](uint32_t node, std::string_view why) { leave_out(node, std::string(why)); };
-  PlaneEvaluation evaluation(
-      subtree, told, miss, [&](const PlaneEvaluation& planes, uint32_t node) {
-        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files}, figure_solids_, told);
-        std::optional<FigureOperations> result = solids.projection(node);
-        if (!result) miss(node, solids.failure());
-        return result;
-      });
+  PlaneEvaluation evaluation(subtree, told, miss,
+                             [&](const PlaneEvaluation& planes, uint32_t node) {
+                               SolidEvaluation solids(subtree, planes, options_, {polyhedra, files},
+                                                      figure_solids_, *solids_, told);
+                               std::optional<FigureOperations> result = solids.projection(node);
+                               if (!result) miss(node, solids.failure());
+                               return result;
+                             });
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
   if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
@@ -550,7 +551,8 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
 Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
                                     const Context& context, NodeProblems& told) {
   const uint32_t root = subtree.root();
-  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files}, figure_solids_, told);
+  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files}, figure_solids_,
+                         *solids_, told);
   std::optional<SolidValue> value = solids.run();
   if (!value) {
     leave_out(root, std::string(solids.failure()));
@@ -566,8 +568,8 @@ Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEval
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
-  std::vector<LoweredSubtree> lowered = lower_all(pending_, *hulls_, stop);
-  hulls_->end_version();
+  std::vector<LoweredSubtree> lowered = lower_all(pending_, *solids_, stop);
+  solids_->end_version();
   if (pending_.empty()) return;
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});

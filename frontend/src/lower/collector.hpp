@@ -19,9 +19,9 @@
 #include "heal/matrix_healing.hpp"
 #include "lower/resolved_modifiers.hpp"
 #include "solids/figure_solids.hpp"
-#include "solids/hull_pool.hpp"
 #include "solids/import_files.hpp"
 #include "solids/import_polyhedra.hpp"
+#include "solids/solid_pool.hpp"
 #include "solids/solid_shape.hpp"
 #include "subtrees/plane_evaluation.hpp"
 #include "subtrees/plane_lowering.hpp"
@@ -150,7 +150,7 @@ class Collector {
   uint32_t top_node_end_ = 0;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
-  const std::shared_ptr<HullPool> hulls_;
+  const std::shared_ptr<SolidPool> solids_;
   /// Hulls of solids, in file order, and what their roots are handed down.
   std::vector<PendingSolid> pending_;
   std::vector<Context> pending_contexts_;

@@ -41,7 +41,7 @@ SolidSum sum_of(SolidEvaluation& solids, const std::vector<SolidValue>& operands
       result.parts = std::move(parts);
       continue;
     }
-    SolidSums sums(chords);
+    SolidSums sums(solids.pool(), chords);
     sums.add(std::move(result.parts), std::move(parts));
     result = {sums.take(), sums.failure()};
     // As in OpenSCAD, nothing is left where a sum is flat, whatever comes after it.

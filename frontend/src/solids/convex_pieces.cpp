@@ -102,7 +102,7 @@ size_t count_of_reflex_edges(const TriangleSet& surface) {
       edges_of(surface), [slack](const SurfaceEdge& edge) { return edge.is_reflex(slack); }));
 }
 
-std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface) {
+std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface, SolidPool& pool) {
   if (count_of_reflex_edges(surface) > kMostReflexEdges) return std::nullopt;
   const double slack = slack_of(surface);
   std::vector<PiecePoints> result;
@@ -125,7 +125,7 @@ std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface) {
     if (work > kMostCutTriangles) return std::nullopt;
     const std::array<TriangleSet, 2> operands{solid, half_at(solid, *longest, slack)};
     for (const Op op : {Op::kDifference, Op::kIntersection}) {
-      todo.push_back(csgcore::boundary_mesh(operands, tree_of_two(op)));
+      todo.push_back(pool.boundary(operands, tree_of_two(op)));
     }
   }
   return result;

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "csgcore/boundary_mesh.hpp"
+#include "csgcore/triangle_set.hpp"
+#include "solids/solid_pool.hpp"
 
 namespace frontend {
 
@@ -18,6 +19,7 @@ using PiecePoints = std::vector<csgcore::Vec3>;
 /// Cuts a solid at the planes of faces where its boundary turns inwards, until all pieces are
 /// convex. The surface is closed, and does not cross itself: boundary_mesh() has made it. The
 /// pieces are the solid's, but for 2^-28 of its size. Returns nothing if they would be very many.
-std::optional<std::vector<PiecePoints>> convex_pieces(csgcore::TriangleSet surface);
+std::optional<std::vector<PiecePoints>> convex_pieces(csgcore::TriangleSet surface,
+                                                      SolidPool& pool);
 
 }  // namespace frontend

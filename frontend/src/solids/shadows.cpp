@@ -225,7 +225,7 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
 FigureOperations Shadows::of_operation(const SolidValue& value) {
   if (value.parts.size() == 1) return of_part(value.parts.front());
   if (std::optional<FigureOperations> shadow = shadow_of_upright(value)) return std::move(*shadow);
-  SolidUnion outcome;
+  SolidUnion outcome(pool_);
   std::vector<FigureOperations> shadows;
   for (const SolidPart& part : outcome.parts_of(value)) shadows.push_back(of_part(part));
   if (!outcome.failure().empty()) fail(outcome.failure());

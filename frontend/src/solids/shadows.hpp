@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "solids/figure_operations.hpp"
+#include "solids/solid_pool.hpp"
 #include "solids/solid_value.hpp"
 
 namespace frontend {
@@ -12,6 +13,8 @@ namespace frontend {
 /// Finds the shadow that a solid casts on the plane z = 0.
 class Shadows {
  public:
+  explicit Shadows(SolidPool& pool) : pool_(pool) {}
+
   /// Returns the shadow; nothing if it cannot be found: failure() says why. The shadow of a union
   /// is that of its operands. Of differences and intersections it is exact where all their operands
   /// stand upright between two heights.
@@ -23,6 +26,7 @@ class Shadows {
   FigureOperations of_part(const SolidPart& part);
   void fail(std::string_view why);
 
+  SolidPool& pool_;
   std::string_view failure_;
 };
 

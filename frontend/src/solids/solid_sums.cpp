@@ -68,24 +68,6 @@ bool is_straight_extrusion(const Primitive& primitive) {
   return extrusion && extrusion->scale_bottom == extrusion->scale_top;
 }
 
-/// Returns the boundary of a closed mesh, which turns outwards and does not cross itself.
-csgcore::TriangleSet surface_of(const SolidPart& mesh) {
-  const csgcore::TriangleSet triangles = triangles_of(*mesh.primitive);
-  csgcore::CsgTreeBuilder builder;
-  builder.primitive(0);
-  csgcore::TriangleSet result = csgcore::boundary_mesh(std::span(&triangles, 1), builder.finish());
-  join_vertices(result);
-  return result;
-}
-
-size_t reflex_edges(const std::vector<SolidPart>& parts) {
-  size_t count = 0;
-  for (const SolidPart& part : parts) {
-    if (!part.is_convex()) count += count_of_reflex_edges(surface_of(part));
-  }
-  return count;
-}
-
 SolidPart moved(SolidPart part, const Vec3& offset, const Box& box) {
   part.primitive->local_to_world.translation += offset;
   part.box = box;
@@ -164,6 +146,24 @@ void SolidSums::add(std::vector<SolidPart> a, std::vector<SolidPart> b) {
   }
 }
 
+/// Returns the boundary of a closed mesh, which turns outwards and does not cross itself.
+csgcore::TriangleSet SolidSums::surface_of(const SolidPart& mesh) const {
+  const csgcore::TriangleSet triangles = triangles_of(*mesh.primitive);
+  csgcore::CsgTreeBuilder builder;
+  builder.primitive(0);
+  csgcore::TriangleSet result = pool_.boundary(std::span(&triangles, 1), builder.finish());
+  join_vertices(result);
+  return result;
+}
+
+size_t SolidSums::reflex_edges(const std::vector<SolidPart>& parts) const {
+  size_t count = 0;
+  for (const SolidPart& part : parts) {
+    if (!part.is_convex()) count += count_of_reflex_edges(surface_of(part));
+  }
+  return count;
+}
+
 /// Returns convex parts with the same union. Those that are not convex are meshes.
 std::vector<SolidPart> SolidSums::in_convex_parts(const std::vector<SolidPart>& parts) {
   std::vector<SolidPart> result;
@@ -172,7 +172,7 @@ std::vector<SolidPart> SolidSums::in_convex_parts(const std::vector<SolidPart>& 
       result.push_back(part);
       continue;
     }
-    const std::optional<std::vector<PiecePoints>> pieces = convex_pieces(surface_of(part));
+    const std::optional<std::vector<PiecePoints>> pieces = convex_pieces(surface_of(part), pool_);
     if (!pieces) fail(kBecauseManyPieces);
     if (!pieces) return {};
     for (const PiecePoints& points : *pieces) {

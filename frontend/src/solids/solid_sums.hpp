@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "solids/solid_pool.hpp"
 #include "solids/solid_value.hpp"
 
 namespace frontend {
@@ -14,7 +15,7 @@ namespace frontend {
 class SolidSums {
  public:
   /// What is round and not convex becomes facets, with that many chords for a whole circle.
-  explicit SolidSums(int chords) : chords_(chords) {}
+  SolidSums(SolidPool& pool, int chords) : pool_(pool), chords_(chords) {}
 
   /// Adds the sum of each part of the one and each of the other.
   void add(std::vector<SolidPart> a, std::vector<SolidPart> b);
@@ -24,6 +25,8 @@ class SolidSums {
 
  private:
   SolidPart as_mesh(SolidPart part) const;
+  csgcore::TriangleSet surface_of(const SolidPart& mesh) const;
+  size_t reflex_edges(const std::vector<SolidPart>& parts) const;
   std::vector<SolidPart> in_convex_parts(const std::vector<SolidPart>& parts);
   void add_pair(const SolidPart& a, const SolidPart& b);
   void add_convex(const SupportSet& a, const SupportSet& b, const csgcore::Box& box);
@@ -33,6 +36,7 @@ class SolidSums {
   void add_extrusion(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
   void fail(std::string_view why);
 
+  SolidPool& pool_;
   int chords_;
   std::vector<SolidPart> sums_;
   std::string_view failure_;

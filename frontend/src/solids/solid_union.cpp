@@ -103,7 +103,7 @@ std::vector<SolidPart> SolidUnion::outcome(const SolidValue& value) {
     if (triangles_ > kMostTriangles) fail(kBecauseManyTriangles);
     if (!failure_.empty()) return {};
   }
-  TriangleSet surface = csgcore::boundary_mesh(operands, near.tree);
+  TriangleSet surface = pool_.boundary(operands, near.tree);
   if (surface.triangles.empty()) return {};
   std::vector<SolidPart> result;
   result.push_back(part_of(std::move(surface), is_smooth));

@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "csgcore/boundary_mesh.hpp"
+#include "csgcore/triangle_set.hpp"
+#include "solids/solid_pool.hpp"
 #include "solids/solid_value.hpp"
 
 namespace frontend {
@@ -14,7 +15,8 @@ class SolidUnion {
  public:
   /// What is round, and takes part in a difference or an intersection, has as many chords as
   /// OpenSCAD gives it, but at least so many.
-  explicit SolidUnion(int least_chords = kChordsOfCutDisc) : least_chords_(least_chords) {}
+  explicit SolidUnion(SolidPool& pool, int least_chords = kChordsOfCutDisc)
+      : pool_(pool), least_chords_(least_chords) {}
 
   /// Returns parts whose union is the value, or nothing if failure() is not empty. What no
   /// difference or intersection takes part in stays what it is. The others are convex bodies of
@@ -27,6 +29,7 @@ class SolidUnion {
   csgcore::TriangleSet triangles_of(const SolidPart& part, bool& is_smooth);
   void fail(std::string_view why);
 
+  SolidPool& pool_;
   int least_chords_;
   std::string_view failure_;
   size_t triangles_ = 0;  // of all operands so far

@@ -59,7 +59,7 @@ std::optional<FigureOperations> SolidEvaluation::section(uint32_t node, const So
 }
 
 std::optional<FigureOperations> SolidEvaluation::shadow(const SolidValue& value) {
-  Shadows shadows;
+  Shadows shadows(pool_);
   std::optional<FigureOperations> result = shadows.of(value);
   if (!result) fail(shadows.failure());
   return result;
@@ -123,7 +123,7 @@ SolidValue SolidEvaluation::solid_of_extrusion(uint32_t node) {
 }
 
 std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value, int least_chords) {
-  SolidUnion outcome(least_chords);
+  SolidUnion outcome(pool_, least_chords);
   std::vector<SolidPart> parts = outcome.parts_of(value);
   if (!outcome.failure().empty()) fail(outcome.failure());
   return parts;

@@ -7,6 +7,7 @@
 
 #include "solids/figure_operations.hpp"
 #include "solids/figure_solids.hpp"
+#include "solids/solid_pool.hpp"
 #include "solids/solid_shape.hpp"
 #include "solids/solid_union.hpp"
 #include "solids/solid_value.hpp"
@@ -19,12 +20,13 @@ class SolidEvaluation {
  public:
   SolidEvaluation(const PlaneSubtree& subtree, const PlaneEvaluation& planes,
                   const ImportOptions& options, SolidSources sources, FigureSolids& figure_solids,
-                  NodeProblems& problems)
+                  SolidPool& pool, NodeProblems& problems)
       : subtree_(subtree),
         planes_(planes),
         options_(options),
         sources_(sources),
         figure_solids_(figure_solids),
+        pool_(pool),
         problems_(problems) {}
 
   /// Returns the root's solid in its own coordinates: a union, or what resize() has of a tree.
@@ -43,6 +45,7 @@ class SolidEvaluation {
   std::vector<SolidValue> operands(uint32_t node);
   /// Returns parts whose union is the value, as far as that can be found (SolidUnion).
   std::vector<SolidPart> united(const SolidValue& value, int least_chords = kChordsOfCutDisc);
+  SolidPool& pool() { return pool_; }
   /// Nothing more is evaluated.
   void fail(std::string_view why);
 
@@ -60,6 +63,7 @@ class SolidEvaluation {
   const ImportOptions& options_;
   SolidSources sources_;
   FigureSolids& figure_solids_;
+  SolidPool& pool_;
   NodeProblems& problems_;
   uint32_t first_ = 0;              // the root of what is evaluated
   std::vector<SolidValue> values_;  // by node from that; one is moved to the node around it

@@ -19,14 +19,14 @@ using csgcore::Op;
 using csgcore::Primitive;
 
 /// What cannot be drawn at any scale is beyond double's numbers in places.
-std::vector<Primitive> pieces_of(const SolidPart& part, HullPool& hulls, bool& is_faceted) {
+std::vector<Primitive> pieces_of(const SolidPart& part, SolidPool& pool, bool& is_faceted) {
   if (part.primitive) {
     is_faceted = is_faceted || part.is_faceted;
     return {*part.primitive};
   }
   const Generators& generators = part.body.generators;
   if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
-  ConvexSolid solid = hulls.solid(generators);
+  ConvexSolid solid = pool.solid(generators);
   is_faceted = is_faceted || solid.is_faceted || part.body.is_faceted;
   return std::move(solid.pieces);
 }
@@ -34,14 +34,14 @@ std::vector<Primitive> pieces_of(const SolidPart& part, HullPool& hulls, bool& i
 }  // namespace
 
 LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_world, uint32_t frame,
-                           uint32_t id, HullPool& hulls) {
+                           uint32_t id, SolidPool& pool) {
   LoweredSubtree result;
   const auto add_part = [&](CsgTreeBuilder& builder, uint32_t index) {
     csgcore::stop_point();
     const SolidPart& part = value.parts[index];
     const csgcore::Box box = mapped(to_world, part.box);
     builder.open(Op::kUnion);
-    for (Primitive& piece : pieces_of(part, hulls, result.is_faceted)) {
+    for (Primitive& piece : pieces_of(part, pool, result.is_faceted)) {
       piece.local_to_world = compose(to_world, piece.local_to_world);
       piece.id = id;
       builder.primitive(static_cast<uint32_t>(result.parts.size()));
@@ -57,14 +57,14 @@ LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_wo
   return result;
 }
 
-std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, HullPool& hulls,
+std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, SolidPool& pool,
                                       const std::stop_token& stop) {
   std::vector<LoweredSubtree> result(pending.size());
   const auto lower = [&](size_t begin, size_t end) {
     const csgcore::StopScope scope(&stop);
     for (size_t i = begin; i < end; ++i) {
       const PendingSolid& solid = pending[i];
-      result[i] = lower_solid(solid.value, solid.to_world, solid.frame, solid.id, hulls);
+      result[i] = lower_solid(solid.value, solid.to_world, solid.frame, solid.id, pool);
     }
   };
   // Fewer take less than the threads take to start.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "csgcore/geometry.hpp"
-#include "solids/hull_pool.hpp"
+#include "solids/solid_pool.hpp"
 #include "solids/solid_value.hpp"
 #include "subtrees/lowered_subtree.hpp"
 
@@ -15,7 +15,7 @@ namespace frontend {
 /// `frame`, which leads to the world by `to_world`, is where the root stands. The primitives have
 /// that id.
 LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_world, uint32_t frame,
-                           uint32_t id, HullPool& hulls);
+                           uint32_t id, SolidPool& pool);
 
 /// The solid of a node, and where its primitives belong.
 struct PendingSolid {
@@ -28,7 +28,7 @@ struct PendingSolid {
 };
 
 /// Returns lower_solid() of each. Throws if it is stopped (throw_if_stopped).
-std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, HullPool& hulls,
+std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, SolidPool& pool,
                                       const std::stop_token& stop);
 
 }  // namespace frontend

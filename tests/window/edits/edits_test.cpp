@@ -12,7 +12,7 @@
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
 #include "painter.hpp"
-#include "solids/hull_pool.hpp"
+#include "solids/solid_pool.hpp"
 #include "support/full_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -71,7 +71,7 @@ class Follower {
  public:
   Follower(std::string path, frontend::DesignFileOptions options)
       : path_(std::move(path)), options_(std::move(options)) {
-    options_.import.hulls = std::make_shared<frontend::HullPool>(frontend::HullPool::Keeps::kAll);
+    options_.import.solids = std::make_shared<frontend::SolidPool>(frontend::SolidPool::Keeps::kAll);
     options_.cache = std::make_shared<language::EvaluationCache>();
   }
   DesignVersion read(const frontend::DesignInputs& inputs) {
