@@ -108,7 +108,10 @@ class CellTree::Builder {
       std::ranges::move(found.alone, std::back_inserter(result.alone_));
     }
     auto& pairs = result.pairs_;
-    tbb::parallel_sort(pairs.begin(), pairs.end());
+    // In one comparison, where that of std::pair takes several that are hard to predict.
+    const auto number = [](const auto& pair) { return uint64_t{pair.first} << 32 | pair.second; };
+    tbb::parallel_sort(pairs.begin(), pairs.end(),
+                       [&](const auto& a, const auto& b) { return number(a) < number(b); });
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 #include "arrangement/disjoint_sets.hpp"
 #include "arrangement/facet_crossing.hpp"
@@ -17,6 +16,7 @@ namespace {
 
 /// What a facet has of another one, or of a point (`other` is kNoPlace, and start is end).
 struct Trace {
+  uint32_t plane;  // the first facet of the plane, once all planes are known
   uint32_t facet;
   uint32_t other;
   PointName start;
@@ -31,7 +31,8 @@ struct Found {
 };
 
 Trace touch(uint32_t facet, uint32_t corner) {
-  return {facet, kNoPlace, corner_name(corner), corner_name(corner), {kNoPlace, kNoPlace}};
+  return {
+      kNoPlace, facet, kNoPlace, corner_name(corner), corner_name(corner), {kNoPlace, kNoPlace}};
 }
 
 class SheetMaker {
@@ -85,12 +86,11 @@ class SheetMaker {
       }
     }
     for (Trace& trace : traces_) {
+      trace.plane = plane_of(trace.facet);
       trace.start = with_planes(trace.start);
       trace.end = with_planes(trace.end);
     }
-    tbb::parallel_sort(traces_.begin(), traces_.end(), [&](const Trace& a, const Trace& b) {
-      return std::tuple(plane_of(a.facet), a) < std::tuple(plane_of(b.facet), b);
-    });
+    tbb::parallel_sort(traces_.begin(), traces_.end());
   }
 
   uint32_t plane_of(uint32_t facet) const { return planes_.find_only(facet); }
@@ -125,18 +125,15 @@ class SheetMaker {
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
     if (common == 1 && crossing.start == crossing.end) return;
     const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
-    found.traces.push_back({t.number, s.number, start, end, edge_of_s});
-    found.traces.push_back({s.number, t.number, start, end, edge_of_t});
+    found.traces.push_back({kNoPlace, t.number, s.number, start, end, edge_of_s});
+    found.traces.push_back({kNoPlace, s.number, t.number, start, end, edge_of_t});
   }
 
   std::vector<std::pair<size_t, size_t>> ranges_of_planes() const {
     std::vector<std::pair<size_t, size_t>> result;
     for (size_t begin = 0; begin < traces_.size();) {
       size_t end = begin + 1;
-      while (end < traces_.size() &&
-             plane_of(traces_[end].facet) == plane_of(traces_[begin].facet)) {
-        ++end;
-      }
+      while (end < traces_.size() && traces_[end].plane == traces_[begin].plane) ++end;
       result.emplace_back(begin, end);
       begin = end;
     }
