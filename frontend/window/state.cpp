@@ -1,6 +1,7 @@
 #include "state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -147,14 +148,18 @@ void State::take(frontend::DesignVersion newest) {
   version = std::move(newest);
 }
 
-/// Proposes a path with the suffix of what the design is, unless there is one already.
+/// Proposes a path with the suffix of what the design is, unless there is one already. A mesh or a
+/// drawing that is shown is not to be replaced by what it is exported to.
 void State::ask_for_model() {
   model_dialogue.is_asked_for = true;
   if (!model_dialogue.path.empty()) return;
-  const char* const suffix = design && design->is_plane_figure ? ".svg" : ".stl";
-  model_dialogue.path = name == "-"
-                            ? std::string("design") + suffix
-                            : std::filesystem::path(name).replace_extension(suffix).string();
+  const bool is_plane_figure = design && design->is_plane_figure;
+  const std::filesystem::path input = name == "-" ? "design" : name;
+  for (const char* const suffix :
+       is_plane_figure ? std::array{".svg", ".dxf"} : std::array{".stl", ".3mf"}) {
+    model_dialogue.path = std::filesystem::path(input).replace_extension(suffix).string();
+    if (model_dialogue.path != name) return;
+  }
 }
 
 void State::measure(MeasuredPoint point) {

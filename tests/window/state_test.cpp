@@ -245,6 +245,21 @@ TEST_F(StateTest, ExportingAsksForAPath) {
   EXPECT_EQ(state_.model_dialogue.path, "design.svg");
 }
 
+TEST_F(StateTest, ExportsProposeNoFileThatIsShown) {
+  const auto proposed_for = [&](const std::string& name) {
+    state_.name = name;
+    state_.model_dialogue = {};
+    state_.apply(Command::kExport);
+    return state_.model_dialogue.path;
+  };
+  EXPECT_EQ(proposed_for("/a/part.stl"), "/a/part.3mf");
+  EXPECT_EQ(proposed_for("/a/part.3mf"), "/a/part.stl");
+  auto figure = std::make_shared<frontend::ImportedDesign>(*state_.design);
+  figure->is_plane_figure = true;
+  state_.design = figure;
+  EXPECT_EQ(proposed_for("/a/part.svg"), "/a/part.dxf");
+}
+
 TEST_F(StateTest, OneExportAtATime) {
   state_.name = "a.scad";
   state_.exporting = "a.stl";
