@@ -153,7 +153,7 @@ class CellTree::Builder {
       add_alone(cell);
       return;
     }
-    constexpr size_t kFew = 24;
+    constexpr size_t kFew = 128;
     constexpr int kDeepest = 60;
     // Few facets are compared, unless they are apart: then each may be alone in a smaller cell.
     std::vector<std::pair<uint32_t, uint32_t>> pairs;
@@ -164,6 +164,7 @@ class CellTree::Builder {
       found.others.insert(found.others.end(), cell.facets.begin(), cell.facets.end());
       if (!is_small) pairs = pairs_of(cell.facets);
       found.pairs.insert(found.pairs.end(), pairs.begin(), pairs.end());
+      cell.facets.shrink_to_fit();
       return;
     }
     const size_t facets = cell.low->facets.size() + cell.high->facets.size();
@@ -293,7 +294,7 @@ class CellTree::Builder {
     cell.high->windings = std::move(cell.windings);
     move_corner(cell, *cell.high);
     cell.high->tokens = std::move(cell.tokens);
-    cell.facets = {};
+    cell.facets = std::vector<uint32_t>();  // no memory for them
     return true;
   }
 
@@ -340,7 +341,7 @@ class CellTree::Builder {
     found.others.insert(found.others.end(), middle, cell.facets.end());
     cell.facets.erase(middle, cell.facets.end());
     if (!cell.facets.empty()) found.alone.push_back({std::move(cell.facets), *cell.alone});
-    cell.facets.clear();
+    cell.facets = std::vector<uint32_t>();
   }
 
   /// Returns the pairs whose boxes meet, of different operands or of one that may cross itself.
