@@ -141,8 +141,28 @@ class FaceMerger {
       const int axis = pieces_.axis(piece(edge.piece));
       const bool is_straight = turn(pieces_.point(corner.neighbors[0]), pieces_.point(edge.from),
                                     pieces_.point(corner.neighbors[1]), axis) == 0;
-      corner.count = is_straight ? 0 : 3;
+      const auto [before, after] = corner.neighbors;
+      corner.count = is_straight && run_on(before, edge.from, after) ? 0 : 3;
     }
+  }
+
+  /// Returns whether the outlines that one of the edges at the point belongs to run on along the
+  /// other one. Else another face's edge runs on, past the end of a cut into a face.
+  bool run_on(uint32_t before, uint32_t point, uint32_t after) const {
+    using Way = std::pair<uint32_t, bool>;  // a face, and whether its outline passes forwards
+    std::array<std::vector<Way>, 2> ways;
+    const auto range_of = [&](uint32_t neighbor) {
+      const std::pair<uint32_t, uint32_t> ends = std::minmax(neighbor, point);
+      return std::ranges::equal_range(edges_, ends, {}, &FaceEdge::ends);
+    };
+    for (const FaceEdge& edge : range_of(before)) {
+      ways[0].emplace_back(faces_.find_only(edge.piece), edge.to == point);
+    }
+    for (const FaceEdge& edge : range_of(after)) {
+      ways[1].emplace_back(faces_.find_only(edge.piece), edge.from == point);
+    }
+    for (auto& own : ways) std::ranges::sort(own);
+    return ways[0] == ways[1];
   }
 
   bool is_left_out(uint32_t point) const { return corners_[corner_at_[point]].count == 0; }

@@ -5,6 +5,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "arrangement/disjoint_sets.hpp"
@@ -25,9 +26,19 @@ struct Trace {
   auto operator<=>(const Trace&) const = default;
 };
 
+/// An edge that two facets of one operand have in common.
+struct CommonEdge {
+  uint32_t low;  // its ends
+  uint32_t high;
+  uint32_t facet;
+  uint32_t other;
+  auto operator<=>(const CommonEdge&) const = default;
+};
+
 struct Found {
   std::vector<Trace> traces;
   std::vector<std::pair<uint32_t, uint32_t>> coplanar;
+  std::vector<CommonEdge> common;
 };
 
 Trace touch(uint32_t facet, uint32_t corner) {
@@ -85,12 +96,40 @@ class SheetMaker {
         traces_.push_back(touch(b, facets_.facets[b].corners[0]));
       }
     }
+    add_common_edges(found);
     for (Trace& trace : traces_) {
       trace.plane = plane_of(trace.facet);
       trace.start = with_planes(trace.start);
       trace.end = with_planes(trace.end);
     }
     tbb::parallel_sort(traces_.begin(), traces_.end());
+  }
+
+  /// Where three facets of one operand and more have an edge in common, a surface meets another
+  /// one, and nobody can tell which two are neighbours: each meets the others. (Two of one plane
+  /// do not: with a third plane they would name a point on each of their common edges.)
+  template <typename Founds>
+  void add_common_edges(const Founds& found) {
+    std::vector<CommonEdge> all;
+    for (const Found& part : found) all.insert(all.end(), part.common.begin(), part.common.end());
+    std::ranges::sort(all);
+    const auto ends = [](const CommonEdge& at) { return std::pair(at.low, at.high); };
+    for (size_t i = 0; i < all.size(); ++i) {
+      const bool is_alone = (i == 0 || ends(all[i - 1]) != ends(all[i])) &&
+                            (i + 1 == all.size() || ends(all[i + 1]) != ends(all[i]));
+      if (is_alone || are_in_one_plane(all[i].facet, all[i].other)) continue;
+      const auto& [low, high, facet, other] = all[i];
+      const PointName start = corner_name(low);
+      const PointName end = corner_name(high);
+      traces_.push_back({kNoPlace, facet, other, start, end, {low, high}});
+      traces_.push_back({kNoPlace, other, facet, start, end, {low, high}});
+    }
+  }
+
+  bool are_in_one_plane(uint32_t facet, uint32_t other) const {
+    const GridPlane plane = facets_.plane(facet);
+    return std::ranges::all_of(facets_.corners(other),
+                               [&](const GridPoint& point) { return side(plane, point) == 0; });
   }
 
   uint32_t plane_of(uint32_t facet) const { return planes_.find_only(facet); }
@@ -104,26 +143,30 @@ class SheetMaker {
   void add_crossing(const PlacedFacet& t, const PlacedFacet& s, Found& found) const {
     const bool is_one_operand =
         facets_.facets[t.number].operand == facets_.facets[s.number].operand;
-    const auto common =
-        is_one_operand
-            ? std::ranges::count_if(
-                  t.names,
-                  [&](uint32_t name) { return std::ranges::find(s.names, name) != s.names.end(); })
-            : 0;
+    std::vector<uint32_t> common;
+    if (is_one_operand) {
+      std::ranges::copy_if(t.names, std::back_inserter(common), [&](uint32_t name) {
+        return std::ranges::find(s.names, name) != s.names.end();
+      });
+    }
     const FacetCrossing crossing = crossing_of(t, s);
     if (crossing.kind == FacetCrossing::Kind::kOverlap) {
       found.coplanar.emplace_back(t.number, s.number);
       return;
     }
     // Neighbours of one surface meet in what they have in common.
-    if (common >= 2) return;
+    if (common.size() >= 2) {
+      const auto [low, high] = std::minmax(common[0], common[1]);
+      found.common.push_back({low, high, t.number, s.number});
+      return;
+    }
     for (const Facets::Touch& at : crossing.touches) {
       const auto& corners = facets_.facets[at.facet].corners;
       if (std::ranges::find(corners, at.point) != corners.end()) continue;
       found.traces.push_back(touch(at.facet, at.point));
     }
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
-    if (common == 1 && crossing.start == crossing.end) return;
+    if (common.size() == 1 && crossing.start == crossing.end) return;
     const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
     found.traces.push_back({kNoPlace, t.number, s.number, start, end, edge_of_s});
     found.traces.push_back({kNoPlace, s.number, t.number, start, end, edge_of_t});

@@ -479,6 +479,15 @@ std::string tree_flaw(const RandomSolid& solid, uint32_t seed, test_support::Lin
   return "";
 }
 
+TEST(RandomBoundaryMesh, IsRightWhereItWasNot) {
+  test_support::LineTotals totals;
+  // Two shells that have edges in common; an edge that runs on past a cut into a face; needles that
+  // the judge did not measure well.
+  for (const uint32_t seed : {2831u, 9256u, 9194u}) {
+    EXPECT_EQ(tree_flaw(test_support::random_solid(seed), seed, totals), "") << seed;
+  }
+}
+
 class RandomBoundaryMeshes : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(RandomBoundaryMeshes, AreSoundAndRight) {
