@@ -36,7 +36,7 @@ WholeList::WholeList(const Solid& solid, const View& view, Boundary boundary)
 
 PacketHits WholeList::trace(const RayPacket& rays, LaneMask lanes) {
   PacketHits hits;
-  if (list_.list) trace_packet(frame_, rays, lanes, list_, parameters_, workspace_, hits);
+  if (list_.list) trace_packet(frame_, rays, lanes, list_, parameters_, nullptr, workspace_, hits);
   return hits;
 }
 

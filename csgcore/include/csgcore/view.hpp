@@ -41,6 +41,9 @@ struct PixelArea {
   bool operator==(const PixelArea&) const = default;
 };
 
+/// Returns the pixels of both areas.
+PixelArea intersection(const PixelArea& a, const PixelArea& b);
+
 /// The points origin + s·direction, in world space.
 struct Ray {
   Vec3 origin;

@@ -8,6 +8,14 @@
 
 namespace csgcore {
 
+PixelArea intersection(const PixelArea& a, const PixelArea& b) {
+  const uint32_t left = std::max(a.x, b.x), top = std::max(a.y, b.y);
+  const uint32_t right = std::min(a.x + a.width, b.x + b.width);
+  const uint32_t bottom = std::min(a.y + a.height, b.y + b.height);
+  if (left >= right || top >= bottom) return {};
+  return {left, top, right - left, bottom - top};
+}
+
 Ray pixel_ray(const View& view, double x_px, double y_px) {
   const double height = view.height_px;
   const double u = (2 * (x_px + 0.5) - view.width_px) / height * view.half_height;

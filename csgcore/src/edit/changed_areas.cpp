@@ -1,7 +1,6 @@
 #include "csgcore/changed_areas.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -67,21 +66,15 @@ class Screen {
     const Box box = intersection(primitive.bounds, bounds_);
     if (box.empty()) return std::nullopt;
     const Extent extents[] = {extent_of(primitive), extent_of(box)};
-    return area_of(extents);
-  }
-
-  /// The same of all that lies within the bounds.
-  std::optional<PixelArea> area_of_bounds() const {
-    if (bounds_.empty()) return std::nullopt;
-    const Extent extents[] = {extent_of(bounds_)};
-    return area_of(extents);
+    const uint32_t indices[] = {0, 1};
+    Extent on_screen[2];
+    find_screen_extents(extents, indices, frame_, {false}, on_screen);
+    const PixelArea area =
+        intersection(pixels_of(on_screen[0], view_), pixels_of(on_screen[1], view_));
+    return area.empty() ? std::nullopt : std::optional(area);
   }
 
  private:
-  struct Range {
-    uint32_t first, end;
-  };
-
   static Extent extent_of(const CanonicalPrimitive& primitive) {
     return csgcore::extent_of(primitive);
   }
@@ -89,35 +82,6 @@ class Screen {
     CanonicalPrimitive of_box;
     of_box.bounds = box;
     return csgcore::extent_of(of_box);
-  }
-
-  /// Returns the area of what lies within both, or the one, of these extents.
-  std::optional<PixelArea> area_of(std::span<const Extent> extents) const {
-    const uint32_t indices[] = {0, 1};
-    Extent on_screen[2];
-    const size_t count = extents.size();
-    find_screen_extents(extents.data(), {indices, count}, frame_, {false}, on_screen);
-    std::optional<PixelArea> area = whole_picture(view_);
-    for (const Extent& extent : std::span<const Extent>(on_screen, count)) {
-      if (!is_visible(extent)) return std::nullopt;
-      const Range x = pixels(extent, 0, view_.width_px), y = pixels(extent, 1, view_.height_px);
-      const uint32_t left = std::max(area->x, x.first), top = std::max(area->y, y.first);
-      const uint32_t right = std::min(area->x + area->width, x.end);
-      const uint32_t bottom = std::min(area->y + area->height, y.end);
-      if (left >= right || top >= bottom) return std::nullopt;
-      area = PixelArea{left, top, right - left, bottom - top};
-    }
-    return area;
-  }
-
-  /// Returns the pixels along an axis that the extent reaches any point of.
-  static Range pixels(const Extent& extent, int axis, uint32_t size_px) {
-    const double low = std::ceil(extent.center[axis] - extent.half[axis] - 0.5);
-    const double high = std::floor(extent.center[axis] + extent.half[axis] + 0.5) + 1;
-    const auto within = [&](double x) {
-      return static_cast<uint32_t>(std::clamp(x, 0.0, double(size_px)));
-    };
-    return {within(low), within(high)};
   }
 
   const View& view_;
@@ -165,7 +129,9 @@ std::vector<PixelArea> changed_areas(const Solid& before, const Solid& after, co
 }
 
 PixelArea area_of(const Solid& solid, const View& view) {
-  return Screen(view, solid.bounds()).area_of_bounds().value_or(PixelArea{});
+  if (solid.bounds().empty()) return {};
+  const FrameRays frame = frame_rays(view, solid.bounds());
+  return pixels_of(screen_extent_of(solid.bounds(), frame, {false}), view);
 }
 
 uint64_t count_pixels(const std::vector<PixelArea>& areas) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "packets/packet.hpp"
 #include "rays/packet_blocks.hpp"
@@ -14,7 +15,6 @@ namespace {
 
 /// The side of the squares of pixels that tasks trace.
 constexpr uint32_t kTaskSide_px = 32;
-constexpr uint32_t kTileBlocks = kTileSide_px / kPacketHeight_px;
 static_assert(kTileSide_px == kPacketWidth_px);
 
 /// Traces the wanted lanes of each block of a tile.
@@ -52,27 +52,16 @@ class LaneVisitor final : public TileVisitor {
 
 }  // namespace
 
-/// The working memory of a task.
-struct CellTracer::Workspace {
-  /// A node that some lanes have yet to visit, and the ranges of their rays within its cell.
-  struct Visit {
-    uint32_t node;
-    LaneMask lanes;
-    PacketRange range;
-  };
-  std::vector<Visit> stack;
-  PacketWorkspace packets;
-  CellList list;
-  std::vector<double> nearest;
-  uint64_t rays = 0;
-};
-
 /// The traversal of the tree by one packet.
 class CellTracer::Traversal {
  public:
-  Traversal(CellTracer& owner, const PacketBlock& block, Workspace& workspace)
-      : owner_(owner), tree_(owner.subdivision_), block_(block), workspace_(workspace) {
-    workspace.packets.segment_store.clear();
+  Traversal(CellTracer& owner, const PacketBlock& block, HitSink& sink, Workspace& workspace)
+      : owner_(owner),
+        tree_(owner.subdivision_),
+        block_(block),
+        sink_(sink),
+        workspace_(workspace) {
+    workspace.packets_.segment_store.clear();
     make_block_rays(owner.frame_, block, rays_);
     invert_directions(rays_, inverses_);
   }
@@ -91,7 +80,7 @@ class CellTracer::Traversal {
     }
     PacketBlock misses = block_;
     misses.lanes = block_.lanes & ~done_;
-    if (misses.lanes != 0) owner_.sink_.store(misses, rays_, TraceList{}, PacketHits{});
+    if (misses.lanes != 0) sink_.store(misses, rays_, TraceList{}, PacketHits{});
     return undecided_;
   }
 
@@ -135,14 +124,14 @@ class CellTracer::Traversal {
   }
 
   void trace_group(LaneMask group, uint32_t signs) {
-    std::vector<Workspace::Visit>& stack = workspace_.stack;
+    std::vector<Workspace::Visit>& stack = workspace_.stack_;
     stack.clear();
     if (tree_.nodes().empty()) return;
     stack.emplace_back();
     stack.back().node = 0;
     stack.back().range.margin = tree_.overlap();
     stack.back().lanes = clip_to_root(group, stack.back().range);
-    workspace_.rays += static_cast<uint64_t>(std::popcount(stack.back().lanes));
+    workspace_.rays_ += static_cast<uint64_t>(std::popcount(stack.back().lanes));
     while (!stack.empty()) {
       Workspace::Visit visit = stack.back();
       stack.pop_back();
@@ -161,7 +150,7 @@ class CellTracer::Traversal {
     const bool downwards = (signs >> node.axis & 1) != 0;
     const uint32_t first = downwards ? node.above : node.below;
     const uint32_t second = downwards ? node.below : node.above;
-    std::vector<Workspace::Visit>& stack = workspace_.stack;
+    std::vector<Workspace::Visit>& stack = workspace_.stack_;
     stack.emplace_back();
     Workspace::Visit& far = stack.back();
     const RangeSplit split = split_range(
@@ -180,14 +169,14 @@ class CellTracer::Traversal {
       known_ |= visit.lanes;
       return;
     }
-    assign(workspace_.list, tree_.tests_of(leaf));
+    assign(workspace_.list_, tree_.tests_of(leaf));
     // A leaf has few primitives, all of which are intersected.
-    workspace_.nearest.assign(leaf.test_count, -std::numeric_limits<double>::max());
-    const TraceList list{tree_.solid().primitives().data(), &workspace_.list,
-                         workspace_.nearest.data(), -std::numeric_limits<double>::max()};
+    workspace_.nearest_.assign(leaf.test_count, -std::numeric_limits<double>::max());
+    const TraceList list{tree_.solid().primitives().data(), &workspace_.list_,
+                         workspace_.nearest_.data(), -std::numeric_limits<double>::max()};
     PacketHits hits;
     trace_packet_in_range(owner_.frame_, rays_, visit.lanes, visit.range, list, owner_.parameters_,
-                          known_, eye_inside_, workspace_.packets, hits);
+                          known_, eye_inside_, workspace_.packets_, hits);
     eye_inside_ |= hits.eye_inside & visit.lanes & ~known_;
     known_ |= visit.lanes;
     done_ |= hits.hits;
@@ -195,12 +184,13 @@ class CellTracer::Traversal {
     PacketBlock decided = block_;
     decided.lanes = hits.hits & ~hits.undecided;
     hits.hits = decided.lanes;
-    if (decided.lanes != 0) owner_.sink_.store(decided, rays_, list, hits);
+    if (decided.lanes != 0) sink_.store(decided, rays_, list, hits);
   }
 
   CellTracer& owner_;
   const Subdivision& tree_;
   const PacketBlock block_;
+  HitSink& sink_;
   Workspace& workspace_;
   RayPacket rays_;
   PacketInverses inverses_;
@@ -211,12 +201,16 @@ class CellTracer::Traversal {
 };
 
 CellTracer::CellTracer(const Subdivision& subdivision, const FrameRays& frame,
-                       const TraceParameters& parameters, HitSink& sink)
-    : subdivision_(subdivision), frame_(frame), parameters_(parameters), sink_(sink) {}
+                       const TraceParameters& parameters,
+                       std::shared_ptr<TileTracer::Workspaces> workspaces)
+    : subdivision_(subdivision),
+      frame_(frame),
+      parameters_(parameters),
+      workspaces_(std::move(workspaces)) {}
 
 CellTracer::~CellTracer() = default;
 
-void CellTracer::trace(const PixelArea& area) {
+void CellTracer::trace(const PixelArea& area, HitSink& sink) {
   const uint32_t columns = (area.width + kTaskSide_px - 1) / kTaskSide_px;
   const uint32_t rows = (area.height + kTaskSide_px - 1) / kTaskSide_px;
   tbb::parallel_for(uint32_t{0}, columns * rows, [&](uint32_t task) {
@@ -224,53 +218,55 @@ void CellTracer::trace(const PixelArea& area) {
     const uint32_t top = area.y + task / columns * kTaskSide_px;
     const uint32_t right = std::min(area.x + area.width, left + kTaskSide_px);
     const uint32_t bottom = std::min(area.y + area.height, top + kTaskSide_px);
+    constexpr LaneMask kAll[] = {kAllLanes, kAllLanes};
     Workspace workspace;
     for (uint32_t y = top; y < bottom; y += kTileSide_px) {
       for (uint32_t x = left; x < right; x += kTileSide_px) {
         trace_tile({x, y, std::min(kTileSide_px, right - x), std::min(kTileSide_px, bottom - y)},
-                   workspace);
+                   kAll, sink, workspace);
       }
     }
     const std::lock_guard lock(mutex_);
-    counts_.intersections += workspace.packets.intersections;
-    counts_.rays += workspace.rays;
+    counts_ += workspace.counts();
   });
 }
 
-void CellTracer::trace_tile(const Tile& tile, Workspace& workspace) {
+void CellTracer::trace_tile(const Tile& tile, std::span<const LaneMask, kTileBlocks> lanes,
+                            HitSink& sink, Workspace& workspace) {
   if (parameters_.stop.stop_requested()) return;
   LaneMask undecided[kTileBlocks] = {};
-  for_each_block(tile, [&](const PacketBlock& block) {
-    undecided[(block.y - tile.y) / kPacketHeight_px] = Traversal(*this, block, workspace).trace();
+  for_each_block(tile, [&](PacketBlock block) {
+    const uint32_t index = (block.y - tile.y) / kPacketHeight_px;
+    block.lanes &= lanes[index];
+    if (block.lanes != 0) undecided[index] = Traversal(*this, block, sink, workspace).trace();
   });
   const bool all_decided =
       std::all_of(std::begin(undecided), std::end(undecided), [](LaneMask m) { return m == 0; });
-  if (!all_decided) trace_by_tile(tile, undecided);
+  if (!all_decided) trace_by_tile(tile, undecided, sink);
 }
 
 /// Coincidence resolution needs the whole ray, and so the list of the rays' tile.
-void CellTracer::trace_by_tile(const Tile& tile, std::span<const LaneMask> undecided) {
-  LaneVisitor visitor(frame_, tile, undecided, sink_);
+void CellTracer::trace_by_tile(const Tile& tile, std::span<const LaneMask> undecided,
+                               HitSink& sink) {
+  LaneVisitor visitor(frame_, tile, undecided, sink);
   tile_tracer().visit(tile, visitor);
 }
 
 TileTracer& CellTracer::tile_tracer() {
   std::call_once(tile_tracer_made_, [&] {
-    tile_tracer_ =
-        std::make_unique<TileTracer>(subdivision_.solid(), frame_, parameters_, TileRules{});
+    tile_tracer_ = std::make_unique<TileTracer>(subdivision_.solid(), frame_, parameters_,
+                                                TileRules{}, workspaces_);
   });
   return *tile_tracer_;
 }
 
+TileTracer::Counts CellTracer::Workspace::counts() const {
+  return {0, rays_, packets_.intersections, packets_.resolved_rays};
+}
+
 TileTracer::Counts CellTracer::counts() const {
   TileTracer::Counts sum = counts_;
-  if (tile_tracer_) {
-    const TileTracer::Counts more = tile_tracer_->counts();
-    sum.tiles += more.tiles;
-    sum.rays += more.rays;
-    sum.intersections += more.intersections;
-    sum.resolved_rays += more.resolved_rays;
-  }
+  if (tile_tracer_) sum += tile_tracer_->counts();
   return sum;
 }
 

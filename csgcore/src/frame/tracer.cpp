@@ -97,8 +97,8 @@ class Frame {
     with_threads(options_.threads, [&] {
       Stopwatch watch;
       if (subdivision) {
-        CellTracer tracer(*subdivision, rays_, parameters_, sink);
-        tracer.trace(area);
+        CellTracer tracer(*subdivision, rays_, parameters_);
+        tracer.trace(area, sink);
         add(tracer.counts());
         stats_.tiles = 0;
       } else {

@@ -170,8 +170,8 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
   }
 }
 
-/// Finds the hits of lanes at whose first boundary other crossings may coincide, or that show the
-/// boundary behind it. Lanes whose coincidences are plain (coincidences-inl.hpp) go on from one to
+/// Finds the hits of lanes at whose first boundary, or at the one behind it, other crossings may
+/// coincide. Lanes whose coincidences are plain (coincidences-inl.hpp) go on from one to
 /// the next together. The others are left to RayResolver, one by one.
 HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                                      const TraceList& list, const TraceParameters& parameters,
@@ -212,33 +212,138 @@ HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& ra
   resolve_lanes(frame, rays, unclear, list, parameters, segments, workspace, hits);
 }
 
-void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
-                  const TraceList& list, const TraceParameters& parameters,
-                  PacketWorkspace& workspace, PacketHits& hits) {
-  constexpr double kEndless = std::numeric_limits<double>::max();
-  alignas(64) double start[kPacketRays], leave[kPacketRays];
-  std::fill_n(start, kPacketRays, frame.first_t);
-  std::fill_n(leave, kPacketRays, kEndless);
-  workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
-  workspace.segment_store.clear();
-  ListSegments segments(frame, rays, list, parameters, workspace);
-  Walk walk = walk_from(start, lanes);
+/// The ends of whole rays.
+struct alignas(64) WholeRays {
+  explicit WholeRays(const FrameRays& frame) {
+    std::fill_n(enter, kPacketRays, frame.first_t);
+    std::fill_n(leave, kPacketRays, std::numeric_limits<double>::max());
+  }
+  double enter[kPacketRays], leave[kPacketRays];
+};
+
+/// Returns the lanes with v ≤ most.
+HWY_INLINE LaneMask lanes_up_to(const PacketV& v, const double* most) {
+  const Wide d;
+  LaneMask result = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    result |= bits_of(hn::Le(v.chunk[c], hn::LoadU(d, most + first_lane(c))), c);
+  }
+  return result;
+}
+
+/// The first boundaries of a packet's rays.
+struct FirstBoundaries {
+  Walk walk;             // stands at them
+  LaneMask arrived = 0;  // the lanes that have one
+};
+
+/// Walks whole rays to their first boundaries, of those up to `last_t`. Sets hits.eye_inside, and
+/// makes the boundaries the hits, whose crossings are still to be found.
+HWY_INLINE FirstBoundaries walk_to_first_boundaries(const FrameRays& frame, LaneMask lanes,
+                                                    const TraceList& list, ListSegments& segments,
+                                                    const WholeRays& whole, const double* last_t,
+                                                    PacketHits& hits) {
+  FirstBoundaries first{walk_from(whole.enter, lanes)};
+  Walk& walk = first.walk;
   if (list.earliest_t > frame.first_t) {
     const bool value = walk_to_first_crossing(list, segments, walk);
     hits.eye_inside = value ? kAllLanes : 0;
+    walk.live &= lanes_up_to(walk.t, last_t);
   } else {
     hits.eye_inside = value_of(list, segments, walk);
   }
-  const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, leave, walk);
-  take_hits(walk, arrived, hits);
+  first.arrived = walk_to_change(list, segments, hits.eye_inside, last_t, walk);
+  take_hits(walk, first.arrived, hits);
   hits.undecided = 0;
-  if (arrived == 0) return;
+  return first;
+}
+
+/// Finds the boundary behind the first one, of lanes whose first boundary is no coincidence and
+/// where `walk` stands. Returns the lanes on which the boundary behind may be one.
+HWY_INLINE LaneMask walk_on_behind(const RayPacket& rays, LaneMask lanes, const TraceList& list,
+                                   const TraceParameters& parameters, ListSegments& segments,
+                                   const WholeRays& whole, Walk walk, PacketHits& hits) {
+  walk.live = lanes;
+  const LaneMask arrived = walk_to_change(list, segments, ~hits.eye_inside, whole.leave, walk);
+  take_hits(walk, arrived, hits);
+  if (arrived == 0) return 0;
   const LaneMask unclear =
-      parameters.boundary == Boundary::kBehind
-          ? arrived
-          : show_crossings(rays, list, parameters, segments, walk, arrived, hits).unclear;
-  resolve_coincidences(frame, rays, unclear, list, parameters, leave, walk, segments, workspace,
-                       hits);
+      show_crossings(rays, list, parameters, segments, walk, arrived, hits).unclear;
+  hits.hits &= ~unclear;
+  return unclear;
+}
+
+/// Finds the boundary behind the first one by the letter of the definition.
+HWY_NOINLINE static void resolve_behind(const FrameRays& frame, const RayPacket& rays,
+                                        LaneMask lanes, const TraceList& list,
+                                        const TraceParameters& parameters,
+                                        PacketWorkspace& workspace, PacketHits& hits) {
+  if (lanes == 0) return;
+  ListSegments segments(frame, rays, list, parameters, workspace);
+  const WholeRays whole(frame);
+  PacketHits resolved;
+  const FirstBoundaries first =
+      walk_to_first_boundaries(frame, lanes, list, segments, whole, whole.leave, resolved);
+  resolve_coincidences(frame, rays, first.arrived, list, parameters, whole.leave, first.walk,
+                       segments, workspace, resolved);
+  const LaneMask found = lanes & resolved.hits;
+  hits.hits |= found;
+  hits.on_cap = (hits.on_cap & ~found) | (resolved.on_cap & found);
+  for_each_lane(found, [&](uint32_t lane) {
+    hits.t[lane] = resolved.t[lane];
+    hits.index[lane] = resolved.index[lane];
+    for (int axis = 0; axis < 3; ++axis) hits.normal[axis][lane] = resolved.normal[axis][lane];
+  });
+}
+
+void trace_packet_sides(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                        const TraceList& list, const TraceParameters& parameters,
+                        const PacketLimits* limits, const GoesOn& goes_on,
+                        PacketWorkspace& workspace, PacketHits& front, PacketHits& behind) {
+  workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
+  workspace.segment_store.clear();
+  ListSegments segments(frame, rays, list, parameters, workspace);
+  const WholeRays whole(frame);
+  const FirstBoundaries first = walk_to_first_boundaries(
+      frame, lanes, list, segments, whole, limits ? limits->last_t : whole.leave, front);
+  behind.hits = behind.undecided = 0;
+  behind.eye_inside = front.eye_inside;
+  LaneMask wanted = first.arrived;
+  if (wanted == 0) return;
+  LaneMask unclear =
+      show_crossings(rays, list, parameters, segments, first.walk, wanted, front).unclear;
+  if (goes_on) {
+    const TraceParameters of_front{parameters.thickness_tolerance, Boundary::kFirst};
+    resolve_coincidences(frame, rays, unclear, list, of_front, whole.leave, first.walk, segments,
+                         workspace, front);
+    wanted = front.hits & goes_on(front);
+    unclear &= wanted;
+  }
+  unclear |= walk_on_behind(rays, wanted & ~unclear, list, parameters, segments, whole, first.walk,
+                            behind);
+  resolve_behind(frame, rays, unclear, list, parameters, workspace, behind);
+}
+
+void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                  const TraceList& list, const TraceParameters& parameters,
+                  const PacketLimits* limits, PacketWorkspace& workspace, PacketHits& hits) {
+  if (parameters.boundary == Boundary::kBehind) {
+    PacketHits first;
+    csgcore::HWY_NAMESPACE::trace_packet_sides(frame, rays, lanes, list, parameters, limits,
+                                               GoesOn(), workspace, first, hits);
+    return;
+  }
+  workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
+  workspace.segment_store.clear();
+  ListSegments segments(frame, rays, list, parameters, workspace);
+  const WholeRays whole(frame);
+  const FirstBoundaries first = walk_to_first_boundaries(
+      frame, lanes, list, segments, whole, limits ? limits->last_t : whole.leave, hits);
+  if (first.arrived == 0) return;
+  const LaneMask unclear =
+      show_crossings(rays, list, parameters, segments, first.walk, first.arrived, hits).unclear;
+  resolve_coincidences(frame, rays, unclear, list, parameters, whole.leave, first.walk, segments,
+                       workspace, hits);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
@@ -277,12 +382,21 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(trace_packet);
+CSGCORE_SIMD_EXPORT(trace_packet_sides);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
 
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   const TraceList& list, const TraceParameters& parameters,
-                  PacketWorkspace& workspace, PacketHits& hits) {
-  CSGCORE_SIMD(trace_packet)(frame, rays, lanes, list, parameters, workspace, hits);
+                  const PacketLimits* limits, PacketWorkspace& workspace, PacketHits& hits) {
+  CSGCORE_SIMD(trace_packet)(frame, rays, lanes, list, parameters, limits, workspace, hits);
+}
+
+void trace_packet_sides(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                        const TraceList& list, const TraceParameters& parameters,
+                        const PacketLimits* limits, const GoesOn& goes_on,
+                        PacketWorkspace& workspace, PacketHits& front, PacketHits& behind) {
+  CSGCORE_SIMD(trace_packet_sides)
+  (frame, rays, lanes, list, parameters, limits, goes_on, workspace, front, behind);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,

@@ -99,8 +99,8 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
   for (int c = 0; c < kChunks; ++c) {
     const size_t column = first_lane(c) % kPacketWidth_px;
     const size_t row = first_lane(c) / kPacketWidth_px;
-    u.chunk[c] = hn::LoadU(d, frame.u_of_column.data() + x + column);
-    v.chunk[c] = hn::Set(d, frame.v_of_row[y + row]);
+    u.chunk[c] = hn::LoadU(d, frame.centers->u_of_column.data() + x + column);
+    v.chunk[c] = hn::Set(d, frame.centers->v_of_row[y + row]);
   }
   write_rays<kChunks>(frame, u, v, rays);
 }
@@ -122,20 +122,30 @@ double rounded_to_26_bits(double x) {
 
 }  // namespace
 
-FrameRays frame_rays(const View& view, const Box& solid_bounds) {
-  FrameRays frame;
-  frame.view = view;
+FrameRays rebased(const FrameRays& other, const Box& solid_bounds) {
+  FrameRays frame = other;
+  const View& view = frame.view;
   const Vec3 middle = solid_bounds.empty() ? view.eye : solid_bounds.center();
   frame.base_s = rounded_to_26_bits(glm::dot(middle - view.eye, view.forward));
   frame.pivot = view.eye + frame.base_s * view.forward;
   frame.first_t = view.projection == Projection::kPerspective
                       ? thickness_tolerance(solid_bounds) - frame.base_s
                       : -std::numeric_limits<double>::max();
-  for (uint32_t x = 0; x < view.width_px + FrameRays::kBeyond_px; ++x)
-    frame.u_of_column.push_back(frame.u(x));
-  for (uint32_t y = 0; y < view.height_px + FrameRays::kBeyond_px; ++y)
-    frame.v_of_row.push_back(frame.v(y));
   return frame;
+}
+
+FrameRays frame_rays(const View& view, const Box& solid_bounds) {
+  FrameRays frame;
+  frame.view = view;
+  const auto centers = std::make_shared<FrameRays::Centers>();
+  for (uint32_t x = 0; x < view.width_px + FrameRays::kBeyond_px; ++x) {
+    centers->u_of_column.push_back(frame.u(x));
+  }
+  for (uint32_t y = 0; y < view.height_px + FrameRays::kBeyond_px; ++y) {
+    centers->v_of_row.push_back(frame.v(y));
+  }
+  frame.centers = centers;
+  return rebased(frame, solid_bounds);
 }
 
 CSGCORE_SIMD_EXPORT(make_rays);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -32,9 +33,14 @@ struct FrameRays {
   /// u and v of the pixels' centres, and of kBeyond_px more beyond the picture, since packets are
   /// filled in whole and read in whole vectors.
   static constexpr uint32_t kBeyond_px = 2 * kPacketWidth_px;
-  std::vector<double> u_of_column, v_of_row;
+  struct Centers {
+    std::vector<double> u_of_column, v_of_row;
+  };
+  std::shared_ptr<const Centers> centers;
 };
 FrameRays frame_rays(const View& view, const Box& solid_bounds);
+/// Returns frame_rays(frame.view, solid_bounds), which shares the pixels' centres.
+FrameRays rebased(const FrameRays& frame, const Box& solid_bounds);
 
 /// The rays' u and v (view.hpp): their positions along the view's right and up.
 struct alignas(64) PacketLaterals {

@@ -334,6 +334,34 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
   CSGCORE_SIMD(find_screen_extents)(world, indices, frame, options, screen);
 }
 
+Extent screen_extent_of(const Box& solid_bounds, const FrameRays& frame,
+                        const ScreenOptions& options) {
+  // The margin is far larger than the rounding of a ray, and far smaller than a pixel.
+  const double margin = cell_overlap(solid_bounds);
+  CanonicalPrimitive of_box;
+  of_box.bounds = {solid_bounds.min - margin, solid_bounds.max + margin};
+  const Extent world = extent_of(of_box);
+  constexpr uint32_t kOnlyOne[] = {0};
+  Extent screen;
+  find_screen_extents(&world, kOnlyOne, frame, options, &screen);
+  return screen;
+}
+
+PixelArea pixels_of(const Extent& screen, const View& view) {
+  if (!is_visible(screen)) return {};
+  const uint32_t size[] = {view.width_px, view.height_px};
+  uint32_t first[2], end[2];
+  for (const int axis : {0, 1}) {
+    const auto within = [&](double x) {
+      return static_cast<uint32_t>(std::clamp(x, 0.0, double(size[axis])));
+    };
+    first[axis] = within(std::ceil(screen.center[axis] - screen.half[axis] - 0.5));
+    end[axis] = within(std::floor(screen.center[axis] + screen.half[axis] + 0.5) + 1);
+    if (first[axis] >= end[axis]) return {};
+  }
+  return {first[0], first[1], end[0] - first[0], end[1] - first[1]};
+}
+
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {
   const double low[] = {pixels.low_x, pixels.low_y};
   const double high[] = {pixels.high_x, pixels.high_y};

@@ -52,6 +52,14 @@ inline bool is_visible(const Extent& screen) {
   return screen.half[0] != -std::numeric_limits<double>::infinity() && screen.outside2 >= 0;
 }
 
+/// Returns the extent on the screen of all that rays meet of a solid with these bounds, which are
+/// not empty.
+Extent screen_extent_of(const Box& solid_bounds, const FrameRays& frame,
+                        const ScreenOptions& options);
+
+/// Returns the pixels that the extent reaches any point of.
+PixelArea pixels_of(const Extent& screen, const View& view);
+
 /// Returns whether the extent's rectangle meets an area of the screen, whose z is ignored.
 inline bool overlaps(const Extent& screen, const Box& area) {
   bool result = true;

@@ -162,7 +162,7 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
 
 ExtentAnswers Restrictor::answers_of_members(const OperandGroups::Members& members, uint32_t first,
                                              uint32_t count, const Box& cell) const {
-  if (const auto outside = open_.members_outside(members, first, count, cell)) {
+  if (const auto outside = open_->members_outside(members, first, count, cell)) {
     return {{*outside, *outside}, {0, 0}, 0};
   }
   return answers_of<1>(members.primitive.data() + first, count, {cell, cell, 0});
@@ -178,7 +178,7 @@ ExtentAnswers Restrictor::answers_of(const uint32_t* primitives, uint32_t count,
   // that half.
   const uint64_t open = answers.open & ~answers.outside[0] & ~answers.outside[kLast];
   for (int side = 0; open != 0 && side < kSides; ++side) {
-    const auto more = open_.classify(primitives, open, side == 0 ? halves.below : halves.above);
+    const auto more = open_->classify(primitives, open, side == 0 ? halves.below : halves.above);
     answers.outside[side] |= more.outside;
     answers.inside[side] |= more.inside;
   }

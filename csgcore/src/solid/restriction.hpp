@@ -51,7 +51,12 @@ class Restrictor {
  public:
   /// Keeps references to extents and classifier.
   Restrictor(std::span<const Extent> extents, const OpenClassifier& open)
-      : extents_(extents), open_(open) {}
+      : extents_(extents), open_(&open) {}
+  /// Goes on with other extents and another classifier, of another solid.
+  void aim_at(std::span<const Extent> extents, const OpenClassifier& open) {
+    extents_ = extents;
+    open_ = &open;
+  }
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half of
   /// a cell: it has no test that the half decides, none whose two targets agree, and none that
@@ -86,7 +91,7 @@ class Restrictor {
   void drop_unreached(CellList& list);
 
   std::span<const Extent> extents_;
-  const OpenClassifier& open_;
+  const OpenClassifier* open_;
   std::vector<uint32_t> maps_[2];  // by side and number in the old list: the number in the new list
   std::vector<uint32_t> reached_;  // for drop_unreached(): by number 0 or 1, then the new number
 };

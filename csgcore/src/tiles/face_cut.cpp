@@ -41,9 +41,10 @@ void TileCuller::find_face_candidates(const CellList& list, const Box& tile, siz
   face_candidates_.clear();
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i];  // complements have larger numbers than groups
-    if (list.if_inside[i] != CellList::kTrue || primitive >= groups_.first_group()) continue;
-    const Extent& e = screen_[primitive];
-    if (covers(e, tile) && primitives_[primitive].is_convex)
+    if (list.if_inside[i] != CellList::kTrue || primitive >= parameters_.groups->first_group())
+      continue;
+    const Extent& e = parameters_.screen[primitive];
+    if (covers(e, tile) && parameters_.primitives[primitive].is_convex)
       face_candidates_.push_back({i, primitive, nearest_t(e)});
   }
   if (face_candidates_.size() <= most) return;
@@ -71,7 +72,8 @@ void TileCuller::find_face_candidates(const CellList& list, const Box& tile, siz
 std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
     const RayPacket& rays, uint32_t primitive, const PacketSegments& segments) const {
   alignas(64) double normals[3][kPacketRays];
-  find_entry_normals(frame_, rays, primitives_[primitive], segments, normals);
+  find_entry_normals(*parameters_.frame, rays, parameters_.primitives[primitive], segments,
+                     normals);
   const auto lane_of = [](const double(&v)[3][kPacketRays], uint32_t lane) {
     return Vec3{v[0][lane], v[1][lane], v[2][lane]};
   };
@@ -82,7 +84,7 @@ std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
     const double speed = -glm::dot(normal, direction);  // along the normal, per unit of t
     const double length = segments.end[lane] - segments.start[lane];
     if (!(speed >= kLeastCosine * glm::length(direction))) return std::nullopt;
-    if (!(speed * length >= kLeastThickness * thickness_tolerance_)) return std::nullopt;
+    if (!(speed * length >= kLeastThickness * parameters_.thickness_tolerance)) return std::nullopt;
   }
   const Vec3 point = lane_of(rays.origin, 0) + segments.start[0] * lane_of(rays.direction, 0);
   return FacePlane{normal, glm::dot(normal, point)};
@@ -91,15 +93,16 @@ std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
 /// Returns whether the primitive or group reaches no further than `limit` beyond the plane, along
 /// its normal.
 bool TileCuller::lies_behind(uint32_t index, const FacePlane& plane, double limit) const {
-  const Extent& e = groups_.extents()[index];
+  const Extent& e = parameters_.groups->extents()[index];
   const Vec3 center{e.center[0], e.center[1], e.center[2]};
-  const double height = glm::dot(plane.normal, center - frame_.pivot) - plane.offset;
+  const double height = glm::dot(plane.normal, center - parameters_.frame->pivot) - plane.offset;
   if (height > limit) return false;
   const Vec3 half{e.half[0], e.half[1], e.half[2]};
   if (height + glm::dot(glm::abs(plane.normal), half) <= limit) return true;
   // A box fits a rotated primitive badly.
-  if (groups_.is_group(index)) return false;
-  const Vec3 furthest = furthest_point(primitives_[index], plane.normal) - frame_.pivot;
+  if (parameters_.groups->is_group(index)) return false;
+  const Vec3 furthest =
+      furthest_point(parameters_.primitives[index], plane.normal) - parameters_.frame->pivot;
   return glm::dot(plane.normal, furthest) - plane.offset <= limit;
 }
 
@@ -113,19 +116,19 @@ bool TileCuller::is_enough(const CellList& list, uint32_t index, Restrictor& res
 
 bool TileCuller::cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
                              CellList& result) {
-  if (last_value_ != true) return false;
-  const Box box = box_of(tile, centers_only_);
+  if (parameters_.last_value != true) return false;
+  const Box box = box_of(tile, parameters_.centers_only);
   const double pixels = static_cast<double>(tile.width) * tile.height;
   find_face_candidates(list, box,
                        std::max(kSomeCandidates, static_cast<size_t>(kMostForAPixel * pixels)));
   if (face_candidates_.empty()) return false;
   RayPacket rays;
   PacketSegments segments;
-  make_four_rays(frame_, laterals_of_corners(frame_, box), rays);
+  make_four_rays(*parameters_.frame, laterals_of_corners(*parameters_.frame, box), rays);
   for (FaceCandidate& candidate : face_candidates_) {
-    intersect_four(frame_, rays, primitives_[candidate.primitive], segments);
+    intersect_four(*parameters_.frame, rays, parameters_.primitives[candidate.primitive], segments);
     const bool are_met = std::all_of(segments.start, segments.start + kCorners, [&](double start) {
-      return start > frame_.first_t && start < std::numeric_limits<double>::infinity();
+      return start > parameters_.frame->first_t && start < std::numeric_limits<double>::infinity();
     });
     candidate.entry_t =
         are_met ? latest_of(segments.start) : std::numeric_limits<double>::infinity();
@@ -134,18 +137,18 @@ bool TileCuller::cut_by_face(const Tile& tile, const CellList& list, Restrictor&
   // same plane is met at depths that differ by rounding.
   const auto nearest = std::ranges::min_element(face_candidates_, {}, &FaceCandidate::entry_t);
   if (std::isinf(nearest->entry_t)) return false;
-  const double together_t = nearest->entry_t + kCoplanar * thickness_tolerance_;
+  const double together_t = nearest->entry_t + kCoplanar * parameters_.thickness_tolerance;
   FaceCandidate chosen = *nearest;
   for (const FaceCandidate& candidate : face_candidates_) {
     if (candidate.entry_t <= together_t && candidate.primitive > chosen.primitive) {
       chosen = candidate;
     }
   }
-  intersect_four(frame_, rays, primitives_[chosen.primitive], segments);
+  intersect_four(*parameters_.frame, rays, parameters_.primitives[chosen.primitive], segments);
   const std::optional<FacePlane> plane = entered_plane(rays, chosen.primitive, segments);
   if (!plane || !is_enough(list, chosen.index, restrictor)) return false;
-  const double in_plane = kCoplanar * thickness_tolerance_;
-  const double behind = -kLeastDistance * thickness_tolerance_;
+  const double in_plane = kCoplanar * parameters_.thickness_tolerance;
+  const double behind = -kLeastDistance * parameters_.thickness_tolerance;
   dropped_.assign(list.count(), Decision::kOpen);
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {

@@ -62,7 +62,7 @@ TileCuller::Outcome TileCuller::cull(const Tile& tile, const CellList& list, Res
   marked_.clear();
   bool cuts = false;
   for (const Cover& cover : covers_) {
-    if (!last_value_) break;
+    if (!parameters_.last_value) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
     cuts = depth && all_end_before(list, restrictor, *depth) && drop_behind(list, *depth);
     if (!cuts) continue;
@@ -87,21 +87,21 @@ double TileCuller::slack_of(const Cover& cover) {
 
 /// Finds the occluders, the longest ones first. Returns whether there are any.
 bool TileCuller::find_covers(const Tile& tile, const CellList& list) {
-  const Box box = box_of(tile, centers_only_);
+  const Box box = box_of(tile, parameters_.centers_only);
   covers_.clear();
   has_groups_ = is_partly_covered_ = false;
   for (const uint32_t entry : list.primitives()) {
     const uint32_t primitive = entry & kPrimitiveBits;
-    if (groups_.is_group(primitive)) {
+    if (parameters_.groups->is_group(primitive)) {
       has_groups_ = true;
       continue;
     }
-    const Extent& e = screen_[primitive];
+    const Extent& e = parameters_.screen[primitive];
     if (!covers(e, box)) {
       is_partly_covered_ |= covers_more_than(e, tile);
       continue;
     }
-    if (!primitives_[primitive].is_convex) continue;
+    if (!parameters_.primitives[primitive].is_convex) continue;
     covers_.push_back({primitive, nearest_t(e), furthest_t(e)});
   }
   if (covers_.empty()) return false;
@@ -115,15 +115,15 @@ bool TileCuller::find_covers(const Tile& tile, const CellList& list) {
                     longer);
   covers_.resize(kept);
   RayPacket rays;
-  make_four_rays(frame_, laterals_of_corners(frame_, box), rays);
+  make_four_rays(*parameters_.frame, laterals_of_corners(*parameters_.frame, box), rays);
   for (Cover& cover : covers_) {
     PacketSegments segments;
-    intersect_four(frame_, rays, primitives_[cover.primitive], segments);
+    intersect_four(*parameters_.frame, rays, parameters_.primitives[cover.primitive], segments);
     const double from = *std::max_element(segments.start, segments.start + 4);
     const double to = *std::min_element(segments.end, segments.end + 4);
     const double slack = slack_of({cover.primitive, from, to});
-    const double least = cover_share_ * (cover.to_t - cover.from_t);
-    cover.from_t = std::max(from, frame_.first_t) + slack;
+    const double least = parameters_.cover_share * (cover.to_t - cover.from_t);
+    cover.from_t = std::max(from, parameters_.frame->first_t) + slack;
     cover.to_t = to - slack;
     if (!(cover.to_t - cover.from_t > least)) cover.to_t = cover.from_t;
   }
@@ -138,7 +138,7 @@ void TileCuller::decide_within(const CellList& list, double from_t, double to_t)
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
     const bool is_apart =
-        dropped_[i] == Decision::kOutside || !meets(screen_[primitive], from_t, to_t);
+        dropped_[i] == Decision::kOutside || !meets(parameters_.screen[primitive], from_t, to_t);
     decisions_[i] = is_apart ? Decision::kOutside : Decision::kOpen;
     for (const Cover& cover : covers_) {
       if (cover.primitive == primitive && cover.from_t <= from_t && to_t <= cover.to_t) {
@@ -162,7 +162,7 @@ void TileCuller::drop_undecisive(const CellList& list, Restrictor& restrictor, c
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
     if (dropped_[i] == Decision::kOutside || decides_[i] ||
-        !lies_within(screen_[primitive], cover.from_t, cover.to_t)) {
+        !lies_within(parameters_.screen[primitive], cover.from_t, cover.to_t)) {
       continue;
     }
     dropped_[i] = Decision::kOutside;
@@ -195,10 +195,10 @@ std::optional<double> TileCuller::free_depth(const CellList& list, double from_t
   std::array<int64_t, kDepthParts + 1> changes{};
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t index = list.primitive[i] & kPrimitiveBits;
-    const Extent& e = screen_[index];
+    const Extent& e = parameters_.screen[index];
     if (!meets(e, from_t, to_t) || covers_at(index, from_t, to_t)) continue;
     const auto [first, last] = parts_of(e);
-    const int64_t weight = groups_.is_group(index) ? 1 : kPrimitive;
+    const int64_t weight = parameters_.groups->is_group(index) ? 1 : kPrimitive;
     changes[first] += weight;
     changes[last + 1] -= weight;
   }
@@ -214,8 +214,9 @@ std::optional<double> TileCuller::free_depth(const CellList& list, double from_t
   marked_.assign(list.count(), 0);
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t index = list.primitive[i] & kPrimitiveBits;
-    if (!groups_.is_group(index) || !meets(screen_[index], from_t, to_t)) continue;
-    const auto [first, last] = parts_of(screen_[index]);
+    if (!parameters_.groups->is_group(index) || !meets(parameters_.screen[index], from_t, to_t))
+      continue;
+    const auto [first, last] = parts_of(parameters_.screen[index]);
     marked_[i] = first <= best && best <= last;
   }
   return std::nullopt;
@@ -225,14 +226,14 @@ std::optional<double> TileCuller::free_depth(const CellList& list, double from_t
 bool TileCuller::all_end_before(const CellList& list, Restrictor& restrictor, double depth) {
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
-  return probe_.root == (*last_value_ ? CellList::kTrue : CellList::kFalse);
+  return probe_.root == (*parameters_.last_value ? CellList::kTrue : CellList::kFalse);
 }
 
 /// Drops primitives behind the depth. Returns whether there are any.
 bool TileCuller::drop_behind(const CellList& list, double depth) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
-    const Extent& extent = screen_[list.primitive[i] & kPrimitiveBits];
+    const Extent& extent = parameters_.screen[list.primitive[i] & kPrimitiveBits];
     if (dropped_[i] == Decision::kOutside || nearest_t(extent) <= depth) continue;
     dropped_[i] = Decision::kOutside;
     drops = true;

@@ -33,25 +33,29 @@ PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box);
 /// of depth. Within the stretch it is known to hold, which may settle the list:
 /// - primitives that lie wholly within the stretch, and that the list does not depend on there, are
 ///   cancelled or lie inside the solid;
-/// - if all rays of the tile have ended at some depth of the stretch (see `last_value`), all
+/// - if all rays of the tile have ended at some depth of the stretch (see Parameters::last_value),
+/// all
 ///   primitives behind that depth are hidden.
 /// Since primitives are convex, the four rays through the tile's corners give an occluder's
 /// stretch.
 class TileCuller {
  public:
-  /// `last_value`: a ray ends as soon as the solid has this value; none: rays do not end.
-  /// `cover_share`: a stretch counts only if it is longer than this share of its primitive's depth.
-  TileCuller(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
-             std::span<const Extent> screen, const FrameRays& frame, bool centers_only,
-             std::optional<bool> last_value, double cover_share, double thickness_tolerance)
-      : primitives_(primitives),
-        groups_(groups),
-        screen_(screen),
-        frame_(frame),
-        centers_only_(centers_only),
-        last_value_(last_value),
-        cover_share_(cover_share),
-        thickness_tolerance_(thickness_tolerance) {}
+  /// A solid on the screen. It refers to all but the numbers.
+  struct Parameters {
+    std::span<const CanonicalPrimitive> primitives;
+    const OperandGroups* groups;
+    std::span<const Extent> screen;
+    const FrameRays* frame;
+    bool centers_only;
+    /// A ray ends as soon as the solid has this value; none: rays do not end.
+    std::optional<bool> last_value;
+    /// A stretch counts only if it is longer than this share of its primitive's depth.
+    double cover_share;
+    double thickness_tolerance;
+  };
+  explicit TileCuller(const Parameters& parameters) : parameters_(parameters) {}
+  /// Goes on with lists of another solid.
+  void aim_at(const Parameters& parameters) { parameters_ = parameters; }
 
   enum class Outcome : uint8_t {
     kNothing,     // no primitive can be dropped
@@ -106,14 +110,7 @@ class TileCuller {
   bool covers_at(uint32_t primitive, double from_t, double to_t) const;
   std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
 
-  std::span<const CanonicalPrimitive> primitives_;
-  const OperandGroups& groups_;
-  std::span<const Extent> screen_;
-  const FrameRays& frame_;
-  bool centers_only_;
-  std::optional<bool> last_value_;
-  double cover_share_;
-  double thickness_tolerance_;
+  Parameters parameters_;
 
   using Decision = Restrictor::Decision;
   std::vector<Cover> covers_;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <limits>
+#include <utility>
 
 #include "rays/packet_blocks.hpp"
 #include "screen/screen_slab.hpp"
@@ -51,11 +53,12 @@ bool is_culled(const Tile& tile, const CellList& list, bool is_new, bool is_cut)
 
 }  // namespace
 
-void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays, HitSink& sink) {
+void trace_block(const FrameRays& frame, const PacketBlock& block, const PacketLimits* limits,
+                 TileRays& rays, HitSink& sink) {
   RayPacket packet;
   make_block_rays(frame, block, packet);
   PacketHits hits;
-  const TraceList& list = rays.trace(packet, block, hits);
+  const TraceList& list = rays.trace(packet, block, limits, hits);
   sink.store(block, packet, list, hits);
 }
 
@@ -95,11 +98,13 @@ struct TileTracer::Level {
 
 /// The working memory of a task.
 struct TileTracer::Workspace {
-  explicit Workspace(TileTracer& owner)
-      : restrictor(owner.bounds_.extents(), owner.bounds_),
-        culler(owner.solid_.primitives(), owner.groups_, owner.bounds_.extents(), owner.frame_,
-               owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
-               owner.parameters_.thickness_tolerance) {}
+  explicit Workspace(const TileTracer& owner)
+      : restrictor(owner.bounds_.extents(), owner.bounds_), culler(owner.cull_parameters()) {}
+  /// Goes on with the tiles of another tracer.
+  void aim_at(const TileTracer& owner) {
+    restrictor.aim_at(owner.bounds_.extents(), owner.bounds_);
+    culler.aim_at(owner.cull_parameters());
+  }
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
@@ -115,28 +120,33 @@ struct TileTracer::Workspace {
   uint64_t tiles = 0;
 };
 
+TileTracer::Workspaces::Workspaces() = default;
+TileTracer::Workspaces::~Workspaces() = default;
+
 /// Holds a workspace for as long as it lives.
 class TileTracer::Lease {
  public:
-  explicit Lease(TileTracer& owner) : owner_(owner) {
-    const std::lock_guard lock(owner.mutex_);
-    if (owner.free_workspaces_.empty()) {
-      owner.workspaces_.push_back(std::make_unique<Workspace>(owner));
-      owner.free_workspaces_.push_back(owner.workspaces_.back().get());
+  explicit Lease(TileTracer& owner) : owner_(*owner.workspaces_) {
+    const std::lock_guard lock(owner_.mutex_);
+    if (owner_.free_.empty()) {
+      owner_.all_.push_back(std::make_unique<Workspace>(owner));
+      workspace_ = owner_.all_.back().get();
+      return;
     }
-    workspace_ = owner.free_workspaces_.back();
-    owner.free_workspaces_.pop_back();
+    workspace_ = owner_.free_.back();
+    owner_.free_.pop_back();
+    workspace_->aim_at(owner);
   }
   ~Lease() {
     const std::lock_guard lock(owner_.mutex_);
-    owner_.free_workspaces_.push_back(workspace_);
+    owner_.free_.push_back(workspace_);
   }
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
   Workspace& operator*() const { return *workspace_; }
 
  private:
-  TileTracer& owner_;
+  Workspaces& owner_;
   Workspace* workspace_;
 };
 
@@ -186,16 +196,23 @@ std::optional<bool> find_last_value(const Solid& solid, const FrameRays& frame,
 }  // namespace
 
 TileTracer::TileTracer(const Solid& solid, const FrameRays& frame,
-                       const TraceParameters& parameters, const TileRules& rules)
+                       const TraceParameters& parameters, const TileRules& rules,
+                       std::shared_ptr<Workspaces> workspaces)
     : solid_(solid),
       groups_(solid.groups()),
       frame_(frame),
       parameters_(parameters),
       rules_(rules),
       last_value_(find_last_value(solid, frame, parameters)),
-      bounds_(solid.primitives(), groups_, frame, rules.centers_only) {}
+      bounds_(solid.primitives(), groups_, frame, rules.centers_only),
+      workspaces_(workspaces ? std::move(workspaces) : std::make_shared<Workspaces>()) {}
 
 TileTracer::~TileTracer() = default;
+
+TileCuller::Parameters TileTracer::cull_parameters() const {
+  return {solid_.primitives(), &groups_,    bounds_.extents(),  &frame_,
+          rules_.centers_only, last_value_, rules_.cover_share, parameters_.thickness_tolerance};
+}
 
 Box TileTracer::box_of(const Tile& tile) const {
   return csgcore::box_of(tile, rules_.centers_only);
@@ -355,15 +372,34 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
-    return trace(rays, lanes, workspace_.list.trace_list(), hits);
+    return trace(rays, lanes, workspace_.list.trace_list(), nullptr, hits);
   }
 
   const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
-                         PacketHits& hits) override {
-    return trace(rays, block.lanes, workspace_.list.trace_list(block), hits);
+                         const PacketLimits* limits, PacketHits& hits) override {
+    return trace(rays, block.lanes, workspace_.list.trace_list(block), limits, hits);
+  }
+
+  double nearest_t() const override { return workspace_.list.trace_list().earliest_t; }
+
+  const TraceList& trace_sides(const RayPacket& rays, const PacketBlock& block,
+                               const PacketLimits* limits, const GoesOn& goes_on, PacketHits& front,
+                               PacketHits& behind) override {
+    assert(!cut_.fallback);
+    trace_packet_sides(owner_.frame_, rays, block.lanes, workspace_.list.trace_list(block),
+                       owner_.parameters_, limits, goes_on, workspace_.packets, front, behind);
+    return workspace_.list.trace_list();
   }
 
  private:
+  /// Returns the lanes that are limited to before the cut.
+  LaneMask lanes_that_end(const PacketLimits& limits) const {
+    LaneMask result = 0;
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      result |= LaneMask{limits.last_t[lane] < cut_.t} << lane;
+    }
+    return result;
+  }
   /// Returns the rays that have not ended before cut_.t, though they should have.
   LaneMask lanes_that_go_on(const PacketHits& hits) const {
     LaneMask lost = ~hits.hits;
@@ -374,23 +410,28 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, const TraceList& list,
-                         PacketHits& hits) {
+                         const PacketLimits* limits, PacketHits& hits) {
     const uint64_t resolved = workspace_.packets.resolved_rays;
-    trace_packet(owner_.frame_, rays, lanes, list, owner_.parameters_, workspace_.packets, hits);
+    trace_packet(owner_.frame_, rays, lanes, list, owner_.parameters_, limits, workspace_.packets,
+                 hits);
+    if (!cut_.fallback) return workspace_.list.trace_list();
     // Culling found that rays end before the cut. But a ray may have gone on beyond a piece that is
     // too thin to exist, and what lies behind counts then.
     // Only coincidence resolution passes such pieces: other rays show where the solid's value
     // changes first.
-    const bool is_certain =
-        (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
-    if (!cut_.fallback || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {
+    LaneMask doubtful = lanes;
+    if (workspace_.packets.resolved_rays == resolved) {
+      doubtful &= ~hits.hits;
+      if (limits) doubtful &= ~lanes_that_end(*limits);
+    }
+    if (doubtful == 0 || (lanes & lanes_that_go_on(hits)) == 0) {
       return workspace_.list.trace_list();
     }
     if (!has_fallback_) assign_fallback();
     const TraceList& fallback = workspace_.fallback_list.trace_list();
     if (fallback.list->is_constant()) return workspace_.list.trace_list();
-    trace_packet(owner_.frame_, rays, lanes, fallback, owner_.parameters_, workspace_.packets,
-                 hits);
+    trace_packet(owner_.frame_, rays, lanes, fallback, owner_.parameters_, limits,
+                 workspace_.packets, hits);
     return fallback;
   }
 
@@ -417,13 +458,19 @@ void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const Cut& c
   visitor.visit(tile, rays);
 }
 
-TileTracer::Counts TileTracer::counts() const {
+TileTracer::Counts& TileTracer::Counts::operator+=(const Counts& other) {
+  tiles += other.tiles;
+  rays += other.rays;
+  intersections += other.intersections;
+  resolved_rays += other.resolved_rays;
+  return *this;
+}
+
+TileTracer::Counts TileTracer::Workspaces::counts() const {
   Counts sum;
-  for (const auto& workspace : workspaces_) {
-    sum.tiles += workspace->tiles;
-    sum.rays += workspace->packets.rays;
-    sum.intersections += workspace->packets.intersections;
-    sum.resolved_rays += workspace->packets.resolved_rays;
+  for (const auto& workspace : all_) {
+    const PacketWorkspace& packets = workspace->packets;
+    sum += {workspace->tiles, packets.rays, packets.intersections, packets.resolved_rays};
   }
   return sum;
 }

@@ -52,13 +52,24 @@ class TileRays {
 
   /// Traces rays through any points of the tile. Returns the list that the hits' indices refer to.
   virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) = 0;
-  /// Traces rays through the centres of a block's pixels.
+  /// Traces rays through the centres of a block's pixels, with trace_packet()'s limits.
   virtual const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
-                                 PacketHits& hits) = 0;
+                                 const PacketLimits* limits, PacketHits& hits) = 0;
+  /// Does what trace_packet_sides() does, for such rays and a tracer for Boundary::kBehind.
+  virtual const TraceList& trace_sides(const RayPacket& rays, const PacketBlock& block,
+                                       const PacketLimits* limits, const GoesOn& goes_on,
+                                       PacketHits& front, PacketHits& behind) = 0;
+  /// No ray of the tile meets anything before this t.
+  virtual double nearest_t() const = 0;
 };
 
 /// Traces the rays through the centres of a block's pixels, and stores what they hit.
-void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays, HitSink& sink);
+void trace_block(const FrameRays& frame, const PacketBlock& block, const PacketLimits* limits,
+                 TileRays& rays, HitSink& sink);
+inline void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays,
+                        HitSink& sink) {
+  trace_block(frame, block, nullptr, rays, sink);
+}
 
 /// Receives the tiles of an area. All threads call it; each pixel is in one tile.
 class TileVisitor {
@@ -96,16 +107,21 @@ class TileTracer {
     uint64_t rays = 0;
     uint64_t intersections = 0;
     uint64_t resolved_rays = 0;
+    Counts& operator+=(const Counts& other);
   };
 
-  /// Keeps references to solid and frame.
+  /// The working memory of tracers, which may share it.
+  class Workspaces;
+
+  /// Keeps references to solid and frame. No `workspaces`: it has its own.
   TileTracer(const Solid& solid, const FrameRays& frame, const TraceParameters& parameters,
-             const TileRules& rules);
+             const TileRules& rules, std::shared_ptr<Workspaces> workspaces = nullptr);
   ~TileTracer();
 
   /// Visits all tiles of `area`, in parallel unless they are few.
   void visit(const Tile& area, TileVisitor& visitor);
 
+  /// Counts what all tracers have done that share the working memory.
   Counts counts() const;
 
  private:
@@ -133,6 +149,7 @@ class TileTracer {
   const CellList* open_large_groups(const Tile& tile, const CellList* list, double share,
                                     CellList (&buffers)[2], Workspace& workspace);
   Box box_of(const Tile& tile) const;
+  TileCuller::Parameters cull_parameters() const;
 
   const Solid& solid_;
   const OperandGroups& groups_;
@@ -141,9 +158,22 @@ class TileTracer {
   const TileRules rules_;
   const std::optional<bool> last_value_;
   ScreenBounds bounds_;
-  mutable std::mutex mutex_;
-  std::vector<std::unique_ptr<Workspace>> workspaces_;
-  std::vector<Workspace*> free_workspaces_;
+  const std::shared_ptr<Workspaces> workspaces_;
 };
+
+class TileTracer::Workspaces {
+ public:
+  Workspaces();
+  ~Workspaces();
+  Counts counts() const;
+
+ private:
+  friend class Lease;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> all_;
+  std::vector<Workspace*> free_;
+};
+
+inline TileTracer::Counts TileTracer::counts() const { return workspaces_->counts(); }
 
 }  // namespace csgcore

@@ -335,7 +335,7 @@ TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
     const SingleList list(target.canonical, false);
     PacketWorkspace workspace;
     PacketHits hits;
-    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceParameters{},
+    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceParameters{}, nullptr,
                  workspace, hits);
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
       const bool crosses = segments.start[lane] < segments.end[lane];
@@ -384,7 +384,7 @@ PocketTrace trace_beside_a_pocket(double aside, LaneMask may_reach = kAllLanes) 
   parameters.thickness_tolerance = 1e-9;
   PacketWorkspace workspace;
   PacketHits hits;
-  trace_packet(frame, rays, kAllLanes, list, parameters, workspace, hits);
+  trace_packet(frame, rays, kAllLanes, list, parameters, nullptr, workspace, hits);
   EXPECT_EQ(hits.hits, kAllLanes);
   PocketTrace trace{workspace.intersections, {}};
   for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
@@ -537,7 +537,7 @@ Bytes bytes_of_all() {
       }
       PacketWorkspace workspace;
       PacketHits hits;
-      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceParameters{}, workspace,
+      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceParameters{}, nullptr, workspace,
                    hits);
       bytes.add(&hits.hits, 1);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {

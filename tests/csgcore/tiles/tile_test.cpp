@@ -27,8 +27,8 @@ class Simplifying {
         whole_(solid_, view),
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
         restrictor_(bounds_.extents(), bounds_),
-        culler_(solid_.primitives(), solid_.groups(), bounds_.extents(), whole_.frame(), true,
-                last_value, 0.0, thickness_tolerance(solid_.bounds())) {}
+        culler_({solid_.primitives(), &solid_.groups(), bounds_.extents(), &whole_.frame(), true,
+                 last_value, 0.0, thickness_tolerance(solid_.bounds())}) {}
 
   struct Outcome {
     uint32_t before = 0, after = 0;  // tests
@@ -88,7 +88,7 @@ class Simplifying {
     trace_list.list = &list;
     trace_list.nearest_t = nearest.data();
     const TraceParameters parameters{thickness_tolerance(solid_.bounds()), boundary};
-    trace_packet(whole_.frame(), rays, lanes, trace_list, parameters, workspace_, hits);
+    trace_packet(whole_.frame(), rays, lanes, trace_list, parameters, nullptr, workspace_, hits);
     return hits;
   }
 
