@@ -1,8 +1,9 @@
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/elapsed.hpp"
-#include "csgcore/changed_areas.hpp"
+#include "csgcore/surfaces.hpp"
 #include "csgcore/tracer.hpp"
 #include "render/scene_subdivision.hpp"
 #include "render/solid_renderer.hpp"
@@ -63,17 +64,20 @@ class CpuRenderer final : public SolidRenderer {
     });
   }
 
-  void draw_sides(const Solid& solid, const FrameSettings& frame, const PictureRequest& request,
-                  Wanted wanted, Sides& sides) override {
+  void draw_layers(const LayerSurfaces& layers, const PictureRequest& request,
+                   Compositor& compositor) override {
     note_renderer(request);
-    sides.area = csgcore::area_of(solid, request.view);
-    if (sides.area.empty()) return;
+    std::vector<csgcore::Surface> surfaces = layers.surfaces;
     if (uses_cells(request.settings)) {
-      const Subdivision& subdivision = subdivisions_.of(solid, request).subdivision;
-      trace_sides(subdivision, frame, request, wanted, sides);
-    } else {
-      trace_sides(solid, frame, request, wanted, sides);
+      for (csgcore::Surface& surface : surfaces) {
+        surface.subdivision = &subdivisions_.of(*surface.solid, request).subdivision;
+      }
     }
+    TraceStats frame_stats;
+    csgcore::draw_surfaces(surfaces, layers.turns, request.view,
+                           trace_options(request.settings, Boundary::kFirst), compositor,
+                           frame_stats);
+    add(frame_stats, request.stats);
   }
 
   void replace(const Solid&, const Solid&, const csgcore::SceneEdit&) override { forget(); }
@@ -122,20 +126,6 @@ class CpuRenderer final : public SolidRenderer {
         cells_picture(subdivision, request.view, frame, color_of(request.settings.scheme.axes));
     request.stats.render_ms += ms_since(start);
     return image;
-  }
-
-  template <typename Traced>
-  static void trace_sides(const Traced& traced, const FrameSettings& frame,
-                          const PictureRequest& request, Wanted wanted, Sides& sides) {
-    const auto trace_side = [&](Boundary boundary, Image& side) {
-      csgcore::TraceOptions options = trace_options(request.settings, boundary);
-      options.area = sides.area;
-      TraceStats frame_stats;
-      csgcore::draw(traced, request.view, frame, options, side, frame_stats);
-      add(frame_stats, request.stats);
-    };
-    if (wanted != Wanted::kBehind) trace_side(Boundary::kFirst, sides.front);
-    if (wanted != Wanted::kFront) trace_side(Boundary::kBehind, sides.behind);
   }
 
   SceneSubdivisions subdivisions_;

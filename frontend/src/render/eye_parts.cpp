@@ -165,6 +165,7 @@ void EyeParts::make_layers(const std::vector<bool>& holding) {
   for (size_t i = 1; i < products_.size() && starts.size() <= kMostLayers + 1; ++i) {
     if (holding[i] != holding[i - 1]) starts.insert(starts.end() - 1, i);
   }
+  PartSolids no_parts(*primitives_);
   const auto add_layer = [&](bool holds, size_t begin, size_t end) {
     CsgTreeBuilder builder;
     builder.open(holds ? Op::kIntersection : Op::kUnion);
@@ -173,7 +174,7 @@ void EyeParts::make_layers(const std::vector<bool>& holding) {
     }
     builder.close();
     layers_.push_back(std::make_unique<const PreparedLayer>(
-        *primitives_, csgcore::Layer{kind_, false, builder.finish()}));
+        *primitives_, csgcore::Layer{kind_, false, builder.finish()}, no_parts));
   };
   if (starts.size() > kMostLayers + 1) {
     add_layer(false, 0, products_.size());

@@ -46,25 +46,21 @@ class GlRenderer final : public SolidRenderer {
     });
   }
 
-  void draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
-                  const PictureRequest& request, Wanted wanted, Sides& sides) override {
-    translate_errors([&] {
-      request.stats.renderer = "gl: " + context_.renderer_name();
-      sides.area = csgcore::area_of(solid, request.view);
-      if (sides.area.empty()) return;
-      sides = with_technique(request, [&](glrender::Technique technique) {
-        glrender::Renderer& renderer = load(solid, request, technique);
-        const glrender::FrameSettings gl_frame = frame_settings(frame, request.settings, technique);
-        Sides drawn{sides.area, {}, {}};
-        drawn.front = count(
-            [&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
-        if (wanted == Wanted::kFront) return drawn;
-        drawn.behind =
-            count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
-                  request);
-        return drawn;
-      });
-    });
+  void draw_layers(const LayerSurfaces& layers, const PictureRequest& request,
+                   Compositor& compositor) override {
+    request.stats.renderer = "gl: " + context_.renderer_name();
+    Sides sides;
+    for (uint32_t turn = 0; turn < layers.turns.size(); ++turn) {
+      if (request.settings.stop.stop_requested()) return;
+      const csgcore::Surface& surface = layers.surfaces[layers.turns[turn]];
+      const csgcore::PixelArea area = csgcore::area_of(*surface.solid, request.view);
+      if (area.empty()) continue;
+      const bool is_behind = surface.boundary == csgcore::Boundary::kBehind;
+      const bool is_drawn =
+          !is_behind && sides.solid == surface.solid && turn > 0 && !layers.blended[turn].is_part;
+      if (!is_drawn) translate_errors([&] { sides = draw_sides(surface, request); });
+      compositor.blend(turn, is_behind ? sides.behind : sides.front, area);
+    }
   }
 
   void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit) override {
@@ -112,6 +108,27 @@ class GlRenderer final : public SolidRenderer {
     }
     technique = "cells";
     return draw(glrender::Technique::kCells);
+  }
+
+  /// The pictures of a surface's solid, with measured channels.
+  struct Sides {
+    const Solid* solid = nullptr;
+    Image front;   // where each ray enters the solid
+    Image behind;  // and where it leaves it again, if that is the surface
+  };
+  Sides draw_sides(const csgcore::Surface& surface, const PictureRequest& request) {
+    return with_technique(request, [&](glrender::Technique technique) {
+      glrender::Renderer& renderer = load(*surface.solid, request, technique);
+      const glrender::FrameSettings frame =
+          frame_settings(surface.frame, request.settings, technique);
+      Sides drawn{surface.solid, {}, {}};
+      drawn.front =
+          count([&](auto& stats) { return renderer.draw(request.view, frame, stats); }, request);
+      if (surface.boundary == csgcore::Boundary::kFirst) return drawn;
+      drawn.behind = count(
+          [&](auto& stats) { return renderer.draw_behind(request.view, frame, stats); }, request);
+      return drawn;
+    });
   }
 
   Image draw_model(const Solid& solid, glrender::FrameSettings frame,

@@ -1,18 +1,22 @@
 #include "render/layers.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <memory>
+#include <limits>
 #include <utility>
 
 namespace frontend {
 namespace {
 
+using csgcore::Boundary;
 using csgcore::CanonicalPrimitive;
 using csgcore::CanonicalPrimitives;
 using csgcore::CsgTree;
 using csgcore::Image;
+using csgcore::kSurfaceSquare_px;
 using csgcore::Layer;
+using csgcore::PixelBlock;
 
 struct LayerColor {
   uint8_t r, g, b, a;
@@ -22,10 +26,16 @@ struct LayerColor {
 constexpr LayerColor kBackgroundColor{180, 180, 180, 128};
 constexpr LayerColor kHighlightColor{255, 81, 81, 128};
 
-/// Two depths that differ by less than this share of depth and scene size are those of the same
-/// surface, drawn twice in float: some ulps of each. A `#` part's own faces in the model are
-/// overlaid, all of them.
-constexpr double kSameDepth = 0x1p-20;
+/// A surface is not shown that lies this many times as far behind what is seen as coincident
+/// surfaces may: theirs is measured at the further one, and rounded to float.
+constexpr double kMostReaches = 4;
+
+/// The depth of a pixel that shows nothing.
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+bool is_nothing(float depth) { return depth == kNothing; }
+
+/// In float a tolerance is taken this much larger than in double, which exceeds what float rounds.
+constexpr float kNearlyOne = 1 + 0x1p-10f;
 
 const LayerColor& color_of(Layer::Kind kind) {
   return kind == Layer::Kind::kBackground ? kBackgroundColor : kHighlightColor;
@@ -53,13 +63,28 @@ csgcore::Solid solid_of(const CanonicalPrimitives& primitives, Layer::Kind kind,
 
 }  // namespace
 
-PreparedLayer::PreparedLayer(const CanonicalPrimitives& primitives, const Layer& layer)
+std::shared_ptr<const csgcore::Solid> PartSolids::solid_of(Layer::Kind kind,
+                                                           const Layer::Part& part) {
+  std::vector<uint64_t> key{static_cast<uint64_t>(kind), part.is_subtracted};
+  for (const csgcore::CsgToken& token : part.solid.tokens()) {
+    const uint64_t what = token.is_primitive ? 0 : 1 + static_cast<uint64_t>(token.op);
+    key.push_back(what << 32 | token.value);
+  }
+  std::shared_ptr<const csgcore::Solid>& solid = made_[std::move(key)];
+  if (!solid) {
+    solid = std::make_shared<const csgcore::Solid>(
+        frontend::solid_of(primitives_, kind, part.solid, part.is_subtracted));
+  }
+  return solid;
+}
+
+PreparedLayer::PreparedLayer(const CanonicalPrimitives& primitives, const Layer& layer,
+                             PartSolids& parts)
     : kind_(layer.kind),
       shows_behind_(layer.shows_behind),
       solid_(solid_of(primitives, layer.kind, layer.solid)) {
   for (const Layer::Part& part : layer.parts) {
-    parts_.push_back(
-        {solid_of(primitives, kind_, part.solid, part.is_subtracted), part.is_subtracted});
+    parts_.push_back({parts.solid_of(kind_, part), part.is_subtracted});
   }
   const float layer_opacity = is_of_model() ? 1.0f : color_of(kind_).a / 255.0f;
   for (const CanonicalPrimitive& primitive : solid_.primitives()) {
@@ -72,7 +97,6 @@ PreparedLayer::PreparedLayer(const CanonicalPrimitives& primitives, const Layer&
 }
 
 csgcore::FrameSettings PreparedLayer::frame(csgcore::FrameSettings scene_frame) const {
-  scene_frame.depth_and_id_only = true;
   if (is_of_model()) return scene_frame;
   const LayerColor& color = color_of(kind_);
   scene_frame.front = scene_frame.back = glm::vec3(color.r, color.g, color.b) / 255.0f;
@@ -83,47 +107,244 @@ float PreparedLayer::opacity(uint32_t id) const {
   return opacity_ ? *opacity_ : own_opacity_.at(id);
 }
 
-Compositor::Compositor(Image& image, std::vector<float> depth, double scene_size)
-    : image_(image),
-      scene_size_(scene_size),
-      depth_(std::move(depth)),
-      last_layer_(depth_.size(), nullptr) {}
-
-template <typename Shows>
-void Compositor::blend(const PreparedLayer& layer, const Image& side,
-                       const csgcore::PixelArea& area, const Shows& shows) {
-  for (uint32_t y = area.y; y < area.y + area.height; ++y) {
-    const size_t row = size_t{y} * image_.width_px;
-    for (size_t pixel = row + area.x; pixel < row + area.x + area.width; ++pixel) {
-      // A miss is at infinity, and in front of nothing.
-      if (std::isinf(side.z[pixel])) continue;
-      const double reach = (std::abs(side.z[pixel]) + scene_size_) * kSameDepth;
-      if (!shows(pixel, reach)) continue;
-      const float alpha = layer.opacity(side.id[pixel]);
-      for (size_t channel = 0; channel < 3; ++channel) {
-        const float below = image_.rgb[pixel][channel];
-        const float above = side.rgb[pixel][channel];
-        image_.rgb[pixel][channel] = static_cast<uint8_t>(below + alpha * (above - below) + 0.5f);
+LayerSurfaces::LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
+                             const csgcore::FrameSettings& frame) {
+  std::map<const csgcore::Solid*, uint32_t> parts;
+  uint32_t number = 0;
+  for (const PreparedLayer* const layer : layers) {
+    const csgcore::FrameSettings of_layer = layer->frame(frame);
+    const auto add = [&](const csgcore::Solid& solid, Boundary boundary) {
+      surfaces.push_back({&solid, nullptr, boundary, of_layer});
+      return static_cast<uint32_t>(surfaces.size()) - 1;
+    };
+    ++number;
+    has_parts = has_parts || !layer->parts().empty();
+    const auto take_turn = [&](uint32_t surface, bool is_part) {
+      turns.push_back(surface);
+      blended.push_back({layer, number, is_part});
+    };
+    if (layer->shows_behind()) take_turn(add(layer->solid(), Boundary::kBehind), false);
+    take_turn(add(layer->solid(), Boundary::kFirst), false);
+    for (const PreparedLayer::Part& part : layer->parts()) {
+      const auto [entry, is_new] = parts.try_emplace(part.solid.get(), 0);
+      if (is_new) {
+        entry->second = add(*part.solid, part.is_subtracted ? Boundary::kBehind : Boundary::kFirst);
       }
+      take_turn(entry->second, true);
     }
   }
 }
 
-void Compositor::add(const PreparedLayer& layer, const Image& side,
-                     const csgcore::PixelArea& area) {
-  blend(layer, side, area, [&](size_t pixel, double reach) {
-    if (side.z[pixel] - reach > depth_[pixel]) return false;
-    depth_[pixel] = std::min(depth_[pixel], side.z[pixel]);
-    last_layer_[pixel] = &layer;
-    return true;
-  });
+Compositor::Compositor(Image& image, std::vector<float> depth, double scene_size,
+                       const LayerSurfaces& surfaces)
+    : image_(image),
+      scene_size_(scene_size),
+      turns_(surfaces.blended),
+      depth_(std::move(depth)),
+      squares_across_((image.width_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px) {
+  // The last rows of blocks at the right side are looked at as a whole.
+  depth_.resize(depth_.size() + PixelBlock::kWidth_px, kNothing);
+  if (surfaces.has_parts) last_layer_.resize(depth_.size(), kNoLayer);
+  const uint32_t squares_down = (image.height_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px;
+  squares_.assign(size_t{squares_across_} * squares_down,
+                  {kNothing, kNothing, kNoLayer, false, true});
 }
 
-void Compositor::add_part(const PreparedLayer& layer, const Image& side,
-                          const csgcore::PixelArea& area) {
-  blend(layer, side, area, [&](size_t pixel, double reach) {
-    return last_layer_[pixel] != &layer && std::abs(side.z[pixel] - depth_[pixel]) <= reach;
+size_t Compositor::square_at(uint32_t x, uint32_t y) const {
+  return size_t{y / kSurfaceSquare_px} * squares_across_ + x / kSurfaceSquare_px;
+}
+
+Compositor::Square Compositor::look_at_square(uint32_t x, uint32_t y) const {
+  x -= x % kSurfaceSquare_px;
+  y -= y % kSurfaceSquare_px;
+  const uint32_t right = std::min(x + kSurfaceSquare_px, image_.width_px);
+  const uint32_t bottom = std::min(y + kSurfaceSquare_px, image_.height_px);
+  const bool has_parts = !last_layer_.empty();
+  const size_t top_left = size_t{y} * image_.width_px + x;
+  Square square{-kNothing, -kNothing, has_parts ? last_layer_[top_left] : kNoLayer, true};
+  for (uint32_t row = y; row < bottom; ++row) {
+    const size_t first = size_t{row} * image_.width_px;
+    for (size_t pixel = first + x; pixel < first + right; ++pixel) {
+      const float depth = depth_[pixel];
+      square.furthest = depth > square.furthest ? depth : square.furthest;
+      const float seen = is_nothing(depth) ? -kNothing : depth;
+      square.furthest_seen = seen > square.furthest_seen ? seen : square.furthest_seen;
+      if (has_parts) square.has_one &= last_layer_[pixel] == square.layer;
+    }
+  }
+  return square;
+}
+
+/// Returns whether the square of this pixel may show a surface that lies nowhere before `nearest`.
+bool Compositor::may_show(const Turn& turn, double nearest, uint32_t x, uint32_t y) const {
+  Square& square = squares_[square_at(x, y)];
+  const auto may_show = [&] {
+    if (!turn.is_part) return !(nearest > square.furthest);
+    return !(nearest > square.furthest_seen) && !(square.has_one && square.layer == turn.number);
+  };
+  if (!may_show()) return false;
+  if (!square.is_stale) return true;
+  square = look_at_square(x, y);
+  return may_show();
+}
+
+bool Compositor::wants(uint32_t turn, const csgcore::PixelArea& area, float nearest_z) const {
+  const double nearest = nearest_z - reach(nearest_z);
+  for (uint32_t y = area.y; y < area.y + area.height; y += kSurfaceSquare_px) {
+    for (uint32_t x = area.x; x < area.x + area.width; x += kSurfaceSquare_px) {
+      if (may_show(turns_[turn], nearest, x, y)) return true;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+constexpr uint32_t kRowPixels = (uint32_t{1} << PixelBlock::kWidth_px) - 1;
+
+/// Calls visit(row's first pixel in the block, and in a picture of this width) for each row of the
+/// block that has any of the pixels.
+template <typename Visit>
+void for_each_row(const PixelBlock& block, uint32_t width_px, const Visit& visit) {
+  for (uint32_t y = 0; y < PixelBlock::kHeight_px; ++y) {
+    const uint32_t first = y * PixelBlock::kWidth_px;
+    if ((block.pixels >> first & kRowPixels) == 0) continue;
+    visit(first, size_t{block.y + y} * width_px + block.x);
+  }
+}
+
+/// Returns the pixels of the block for which holds(pixel in the block, index in the picture). Asks
+/// for whole rows, which compilers make vectors of.
+template <typename Holds>
+uint32_t pixels_where(const PixelBlock& block, uint32_t width_px, const Holds& holds) {
+  uint32_t result = 0;
+  for_each_row(block, width_px, [&](uint32_t first, size_t index) {
+    uint32_t row = 0;
+    for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
+      row |= holds(first + x, index + x) ? uint32_t{1} << x : 0;
+    }
+    result |= row << first;
   });
+  return result & block.pixels;
+}
+
+/// Returns those of the pixels for which holds(pixel in the block, index in the picture), one by
+/// one.
+template <typename Holds>
+uint32_t those_where(uint32_t pixels, const PixelBlock& block, uint32_t width_px,
+                     const Holds& holds) {
+  uint32_t result = 0;
+  for (uint32_t left = pixels; left != 0; left &= left - 1) {
+    const auto pixel = static_cast<uint32_t>(std::countr_zero(left));
+    const size_t row = block.y + pixel / PixelBlock::kWidth_px;
+    const size_t index = row * width_px + block.x + pixel % PixelBlock::kWidth_px;
+    if (holds(pixel, index)) result |= left & -left;
+  }
+  return result;
+}
+
+}  // namespace
+
+void Compositor::blend_row(const PreparedLayer& layer, uint32_t drawn,
+                           const csgcore::SurfacePixels& pixels, uint32_t first,
+                           std::array<uint8_t, 3>* row) {
+  for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
+    if ((drawn >> x & 1) == 0) continue;
+    const float alpha = layer.opacity(pixels.id[first + x]);
+    for (size_t channel = 0; channel < 3; ++channel) {
+      const float below = row[x][channel];
+      const float above = pixels.rgb[first + x][channel];
+      row[x][channel] = static_cast<uint8_t>(below + alpha * (above - below) + 0.5f);
+    }
+  }
+}
+
+uint32_t Compositor::wanted(uint32_t turn, const PixelBlock& block, float nearest_z,
+                            double (&furthest_z)[PixelBlock::kPixels]) const {
+  const Turn& own = turns_[turn];
+  for_each_row(block, image_.width_px, [&](uint32_t first, size_t index) {
+    for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
+      const double depth = depth_[index + x];
+      furthest_z[first + x] = depth + kMostReaches * reach(depth);
+    }
+  });
+  const double nearest = nearest_z;
+  const uint32_t result = pixels_where(block, image_.width_px, [&](uint32_t pixel, size_t) {
+    return !(nearest > furthest_z[pixel]);
+  });
+  if (!own.is_part) return result;
+  return result & pixels_where(block, image_.width_px, [&](uint32_t, size_t index) {
+           return last_layer_[index] != own.number && !is_nothing(depth_[index]);
+         });
+}
+
+uint32_t Compositor::shown(uint32_t turn, const PixelBlock& block,
+                           const float (&z)[PixelBlock::kPixels]) const {
+  const Turn& own = turns_[turn];
+  // Most pixels are decided in float.
+  if (own.is_part) {
+    const float share = kNearlyOne * static_cast<float>(kSameDepth);
+    const auto size = static_cast<float>(scene_size_);
+    const uint32_t near = pixels_where(block, image_.width_px, [&](uint32_t pixel, size_t index) {
+      return std::abs(z[pixel] - depth_[index]) <= share * (std::abs(z[pixel]) + size);
+    });
+    return those_where(near, block, image_.width_px, [&](uint32_t pixel, size_t index) {
+      return last_layer_[index] != own.number &&
+             std::abs(z[pixel] - depth_[index]) <= reach(z[pixel]);
+    });
+  }
+  const uint32_t before = pixels_where(block, image_.width_px, [&](uint32_t pixel, size_t index) {
+    return z[pixel] <= depth_[index];
+  });
+  return before | those_where(block.pixels & ~before, block, image_.width_px,
+                              [&](uint32_t pixel, size_t index) {
+                                return z[pixel] - reach(z[pixel]) <= depth_[index];
+                              });
+}
+
+void Compositor::draw(uint32_t turn, const PixelBlock& block,
+                      const csgcore::SurfacePixels& pixels) {
+  const Turn& own = turns_[turn];
+  for_each_row(block, image_.width_px, [&](uint32_t first, size_t index) {
+    const uint32_t drawn = block.pixels >> first & kRowPixels;
+    blend_row(*own.layer, drawn, pixels, first, &image_.rgb[index]);
+    if (own.is_part) return;
+    for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
+      if ((drawn >> x & 1) == 0) continue;
+      depth_[index + x] = std::min(depth_[index + x], pixels.z[first + x]);
+      if (!last_layer_.empty()) last_layer_[index + x] = own.number;
+    }
+  });
+  if (own.is_part) return;
+  Square& square = squares_[square_at(block.x, block.y)];
+  square = {square.furthest, square.furthest, kNoLayer, false, true};
+}
+
+void Compositor::blend(uint32_t turn, const Image& picture, const csgcore::PixelArea& area) {
+  const auto next = [](uint32_t x, uint32_t step) { return (x / step + 1) * step; };
+  const uint32_t right = area.x + area.width, bottom = area.y + area.height;
+  csgcore::SurfacePixels pixels{};
+  for (uint32_t y = area.y; y < bottom; y = next(y, PixelBlock::kHeight_px)) {
+    for (uint32_t x = area.x; x < right; x = next(x, PixelBlock::kWidth_px)) {
+      const uint32_t width = std::min(next(x, PixelBlock::kWidth_px), right) - x;
+      const uint32_t height = std::min(next(y, PixelBlock::kHeight_px), bottom) - y;
+      PixelBlock block{x, y, 0};
+      for (uint32_t row = 0; row < height; ++row) {
+        for (uint32_t column = 0; column < width; ++column) {
+          const size_t index = size_t{y + row} * picture.width_px + x + column;
+          const uint32_t pixel = row * PixelBlock::kWidth_px + column;
+          // A miss is at infinity, and in front of nothing.
+          if (is_nothing(picture.z[index])) continue;
+          block.pixels |= uint32_t{1} << pixel;
+          pixels.z[pixel] = picture.z[index];
+          pixels.rgb[pixel] = picture.rgb[index];
+          pixels.id[pixel] = picture.id[index];
+        }
+      }
+      block.pixels = shown(turn, block, pixels.z);
+      if (block.pixels != 0) draw(turn, block, pixels);
+    }
+  }
 }
 
 }  // namespace frontend

@@ -2,6 +2,11 @@
 // (frontend/OPENSCAD.md, "Translucency").
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -10,14 +15,27 @@
 #include "csgcore/image.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/solid.hpp"
-#include "render/solid_renderer.hpp"
+#include "csgcore/surfaces.hpp"
 
 namespace frontend {
+
+/// The solids of layers' parts. Products of one sum have most of their parts in common.
+class PartSolids {
+ public:
+  explicit PartSolids(const csgcore::CanonicalPrimitives& primitives) : primitives_(primitives) {}
+  std::shared_ptr<const csgcore::Solid> solid_of(csgcore::Layer::Kind kind,
+                                                 const csgcore::Layer::Part& part);
+
+ private:
+  const csgcore::CanonicalPrimitives& primitives_;
+  std::map<std::vector<uint64_t>, std::shared_ptr<const csgcore::Solid>> made_;
+};
 
 /// A layer of a scene, made ready to be drawn.
 class PreparedLayer {
  public:
-  PreparedLayer(const csgcore::CanonicalPrimitives& primitives, const csgcore::Layer& layer);
+  PreparedLayer(const csgcore::CanonicalPrimitives& primitives, const csgcore::Layer& layer,
+                PartSolids& parts);
 
   const csgcore::Solid& solid() const { return solid_; }
   bool is_of_model() const { return kind_ == csgcore::Layer::Kind::kModel; }
@@ -40,35 +58,83 @@ class PreparedLayer {
 };
 
 struct PreparedLayer::Part {
-  csgcore::Solid solid;
-  bool is_subtracted;  // the surface that counts is its far side
+  std::shared_ptr<const csgcore::Solid> solid;  // the same one of equal parts
+  bool is_subtracted;                           // the surface that counts is its far side
 };
 
-/// Blends layers over a picture, each where no earlier one lies in front of it.
-class Compositor {
+/// The surfaces of layers, and the order in which they are blended.
+struct LayerSurfaces {
+  struct Turn {
+    const PreparedLayer* layer;
+    uint32_t number;  // of the layer, from 1 on
+    bool is_part;
+  };
+  std::vector<csgcore::Surface> surfaces;
+  std::vector<uint32_t> turns;  // indices of surfaces
+  std::vector<Turn> blended;    // by turn
+  bool has_parts = false;
+
+  /// `frame` is the scene's.
+  LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
+                const csgcore::FrameSettings& frame);
+};
+
+/// Blends the surfaces of layers over a picture: those of a layer itself where no earlier one lies
+/// in front of them, and a part's where it coincides with what is seen, unless that is of the
+/// part's layer.
+class Compositor final : public csgcore::SurfaceSink {
  public:
   /// `depth` holds View's s of what each pixel of `image` shows, +inf where that is nothing. Of the
   /// image's channels only rgb changes. Surfaces coincide where they are nearer than a rounding
   /// error of a picture of a scene of this size (world units): the later one is then drawn.
-  Compositor(csgcore::Image& image, std::vector<float> depth, double scene_size);
+  Compositor(csgcore::Image& image, std::vector<float> depth, double scene_size,
+             const LayerSurfaces& surfaces);
 
-  /// `side` is the layer's picture in the area, with z and id channels.
-  void add(const PreparedLayer& layer, const csgcore::Image& side, const csgcore::PixelArea& area);
+  /// Blends the surface of a turn from its picture in the area, with z and id channels.
+  void blend(uint32_t turn, const csgcore::Image& picture, const csgcore::PixelArea& area);
 
-  /// Blends a part of the layer that was added last where its surface coincides with what is seen,
-  /// unless the layer itself is.
-  void add_part(const PreparedLayer& layer, const csgcore::Image& side,
-                const csgcore::PixelArea& area);
+  bool wants(uint32_t turn, const csgcore::PixelArea& area, float nearest_z) const override;
+  uint32_t wanted(uint32_t turn, const csgcore::PixelBlock& block, float nearest_z,
+                  double (&furthest_z)[csgcore::PixelBlock::kPixels]) const override;
+  uint32_t shown(uint32_t turn, const csgcore::PixelBlock& block,
+                 const float (&z)[csgcore::PixelBlock::kPixels]) const override;
+  void draw(uint32_t turn, const csgcore::PixelBlock& block,
+            const csgcore::SurfacePixels& pixels) override;
 
  private:
-  template <typename Shows>
-  void blend(const PreparedLayer& layer, const csgcore::Image& side, const csgcore::PixelArea& area,
-             const Shows& shows);
+  using Turn = LayerSurfaces::Turn;
+  static constexpr uint32_t kNoLayer = 0;
+  /// What is known of a square of pixels. Until it is looked at again, depths are upper bounds, and
+  /// its pixels may have any layers.
+  struct Square {
+    float furthest;       // of depth_
+    float furthest_seen;  // the same without pixels that show nothing
+    uint32_t layer;       // in last_layer_, of all pixels if has_one
+    bool has_one;
+    bool is_stale = false;
+  };
+
+  /// Two depths that differ by less than this share of depth and scene size are those of the same
+  /// surface, drawn twice in float: some ulps of each. A `#` part's own faces in the model are
+  /// overlaid, all of them.
+  static constexpr double kSameDepth = 0x1p-20;
+  /// A surface at z coincides with those that are no further away than this.
+  double reach(double z) const { return (std::abs(z) + scene_size_) * kSameDepth; }
+
+  static void blend_row(const PreparedLayer& layer, uint32_t drawn,
+                        const csgcore::SurfacePixels& pixels, uint32_t first,
+                        std::array<uint8_t, 3>* row);
+  size_t square_at(uint32_t x, uint32_t y) const;
+  Square look_at_square(uint32_t x, uint32_t y) const;
+  bool may_show(const Turn& turn, double nearest, uint32_t x, uint32_t y) const;
 
   csgcore::Image& image_;
-  double scene_size_;
-  std::vector<float> depth_;                      // of what was drawn last at each pixel
-  std::vector<const PreparedLayer*> last_layer_;  // that is seen at each pixel
+  const double scene_size_;
+  const std::vector<Turn>& turns_;
+  std::vector<float> depth_;          // of what was drawn last at each pixel
+  std::vector<uint32_t> last_layer_;  // that is seen at each pixel; none if no part asks for it
+  const uint32_t squares_across_;
+  mutable std::vector<Square> squares_;
 };
 
 }  // namespace frontend

@@ -75,8 +75,9 @@ PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene,
 
 void PreparedScene::add_layers() {
   scene_box_ = model_.bounds();
+  PartSolids parts(*primitives_);
   for (const csgcore::Layer& layer : scene_->layers) {
-    layers_.push_back(std::make_unique<const PreparedLayer>(*primitives_, layer));
+    layers_.push_back(std::make_unique<const PreparedLayer>(*primitives_, layer, parts));
     model_is_layered_ = model_is_layered_ || layers_.back()->is_of_model();
     scene_box_.merge(layers_.back()->solid().bounds());
   }
@@ -129,6 +130,7 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
   if (settings.from_within) frame.from_within = color_of(*settings.from_within);
   frame.shading = settings.shading;
   frame.measured_channels = settings.measured_channels || has_layers;
+  frame.depth_and_id_only = !settings.measured_channels;
   if (has_layers) frame.scene_box = scene_box_;
   return frame;
 }
@@ -149,9 +151,10 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   Image image = draw_base(renderer, composition.model_is_layered, frame, request);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
   if (composition.layers.empty() || request.settings.show == Show::kCells) return image;
+  const LayerSurfaces surfaces(composition.layers, frame);
   if (!composition.model_is_layered) {
-    Compositor compositor(image, image.z, scene_box_.diagonal());
-    draw_layers(renderer, composition, frame, request, compositor);
+    Compositor compositor(image, image.z, scene_box_.diagonal(), surfaces);
+    renderer.draw_layers(surfaces, request, compositor);
     return image;
   }
   // Layers have one ray a pixel. So a smooth picture of them is one of more pixels, made smaller.
@@ -163,30 +166,10 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   const Rgb& background = request.settings.scheme.background;
   fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
   std::vector<float> depth(fine.rgb.size(), std::numeric_limits<float>::infinity());
-  Compositor compositor(fine, std::move(depth), scene_box_.diagonal());
-  draw_layers(renderer, composition, frame, {view, request.settings, request.stats}, compositor);
+  Compositor compositor(fine, std::move(depth), scene_box_.diagonal(), surfaces);
+  renderer.draw_layers(surfaces, {view, request.settings, request.stats}, compositor);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
   return image;
-}
-
-void PreparedScene::draw_layers(SolidRenderer& renderer, const Composition& composition,
-                                const csgcore::FrameSettings& frame, const PictureRequest& request,
-                                Compositor& compositor) const {
-  SolidRenderer::Sides sides;
-  for (const PreparedLayer* layer : composition.layers) {
-    if (request.settings.stop.stop_requested()) return;
-    const csgcore::FrameSettings of_layer = layer->frame(frame);
-    using Wanted = SolidRenderer::Wanted;
-    renderer.draw_sides(layer->solid(), of_layer, request,
-                        layer->shows_behind() ? Wanted::kBoth : Wanted::kFront, sides);
-    if (layer->shows_behind()) compositor.add(*layer, sides.behind, sides.area);
-    compositor.add(*layer, sides.front, sides.area);
-    for (const PreparedLayer::Part& part : layer->parts()) {
-      renderer.draw_sides(part.solid, of_layer, request,
-                          part.is_subtracted ? Wanted::kBehind : Wanted::kFront, sides);
-      compositor.add_part(*layer, part.is_subtracted ? sides.behind : sides.front, sides.area);
-    }
-  }
 }
 
 void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& request,

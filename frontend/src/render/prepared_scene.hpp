@@ -44,9 +44,6 @@ class PreparedScene {
   bool is_within(const PictureRequest& request) const;
   Composition composition(SolidRenderer& renderer, const PictureRequest& request) const;
   csgcore::FrameSettings frame_settings(const RenderSettings& settings, bool has_layers) const;
-  void draw_layers(SolidRenderer& renderer, const Composition& composition,
-                   const csgcore::FrameSettings& frame, const PictureRequest& request,
-                   Compositor& compositor) const;
   csgcore::Image draw_base(SolidRenderer& renderer, bool model_is_layered,
                            const csgcore::FrameSettings& frame,
                            const PictureRequest& request) const;

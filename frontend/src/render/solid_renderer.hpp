@@ -14,6 +14,7 @@
 #include "frontend/error.hpp"
 #include "frontend/render_settings.hpp"
 #include "frontend/render_stats.hpp"
+#include "render/layers.hpp"
 #include "render/renderer_choice.hpp"
 
 namespace frontend {
@@ -59,18 +60,10 @@ class SolidRenderer {
                                 const PictureRequest&, std::span<const csgcore::PixelArea>,
                                 csgcore::Image&) {}
 
-  enum class Wanted : uint8_t { kFront, kBehind, kBoth };
-  /// The pictures of a layer, with measured channels.
-  struct Sides {
-    csgcore::PixelArea area;  // outside of it the solid is not seen, and the pictures are undefined
-    csgcore::Image front;     // where each ray enters the solid
-    csgcore::Image behind;    // and where it leaves it again; either is defined if it was wanted
-  };
-  /// Draws a layer, with one ray a pixel: at the edge of what is blended later, a colour mixed with
-  /// the background's would show as a seam. `sides` may hold those of another layer of the same
-  /// view.
-  virtual void draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame,
-                          const PictureRequest& request, Wanted wanted, Sides& sides) = 0;
+  /// Blends layers over a picture, with one ray a pixel: at the edge of what is blended later, a
+  /// colour mixed with the background's would show as a seam.
+  virtual void draw_layers(const LayerSurfaces& layers, const PictureRequest& request,
+                           Compositor& compositor) = 0;
 
   /// What OpenGL holds of `before` follows the edit to `after`, before `before` ends; all else is
   /// forgotten.

@@ -172,6 +172,18 @@ TEST_P(Layers, AHighlightLiesOverItsOwnBody) {
   expect_middle("#" + kCube + moved(100, 0, 0, kCube), over(once, lit(kHighlight), kHalf));
 }
 
+TEST_P(Layers, OperandsOfAHighlightHaveItsColorAndThoseOfTheModelTheirOwn) {
+  // A plug in a hole is flush with the face around it, which is blended over the plug, too. The
+  // model and the `#` part both have this face.
+  const std::string plug = moved(0, 0, 2, "cube(size = [2, 2, 4], center = true);");
+  const std::string face = colored(kRedGlass, "cube(size = 8, center = true);");
+  const std::string glass = "#difference() {" + face + kTall + "}";
+  const std::string all = "cube(size = 30, center = true);";
+  const Color once = over(lit(kFront), lit(kRed), 0.5);
+  expect_middle(plug + "difference() {" + kCube + "difference() {" + all + glass + "}}",
+                over(once, lit(kHighlight), kHalf));
+}
+
 TEST_P(Layers, BackgroundPartsAreDrawnBeforeHighlights) {
   const Color grey = over(over(kPaper, lit(kBackground), kHalf), lit(kBackground), kHalf);
   const Color red = over(over(grey, lit(kHighlight), kHalf), lit(kHighlight), kHalf);
