@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "arrangement/disjoint_sets.hpp"
@@ -134,44 +135,39 @@ class FaceMerger {
         ++corner.count;
       }
     }
-    // Points are left out where two edges run straight on.
+    // Two edges may run straight on.
     for (const FaceEdge& edge : edges_) {
       FaceCorner& corner = corners_[corner_at_[edge.from]];
       if (corner.count != 2) continue;
       const int axis = pieces_.axis(piece(edge.piece));
       const bool is_straight = turn(pieces_.point(corner.neighbors[0]), pieces_.point(edge.from),
                                     pieces_.point(corner.neighbors[1]), axis) == 0;
-      const auto [before, after] = corner.neighbors;
-      corner.count = is_straight && run_on(before, edge.from, after) ? 0 : 3;
+      corner.count = is_straight ? 0 : 3;
     }
   }
 
-  /// Returns whether the outlines that one of the edges at the point belongs to run on along the
-  /// other one. Else another face's edge runs on, past the end of a cut into a face.
-  bool run_on(uint32_t before, uint32_t point, uint32_t after) const {
-    using Way = std::pair<uint32_t, bool>;  // a face, and whether its outline passes forwards
-    std::array<std::vector<Way>, 2> ways;
-    const auto range_of = [&](uint32_t neighbor) {
-      const std::pair<uint32_t, uint32_t> ends = std::minmax(neighbor, point);
-      return std::ranges::equal_range(edges_, ends, {}, &FaceEdge::ends);
-    };
-    for (const FaceEdge& edge : range_of(before)) {
-      ways[0].emplace_back(faces_.find_only(edge.piece), edge.to == point);
-    }
-    for (const FaceEdge& edge : range_of(after)) {
-      ways[1].emplace_back(faces_.find_only(edge.piece), edge.from == point);
-    }
-    for (auto& own : ways) std::ranges::sort(own);
-    return ways[0] == ways[1];
-  }
+  bool runs_straight(uint32_t point) const { return corners_[corner_at_[point]].count == 0; }
 
-  bool is_left_out(uint32_t point) const { return corners_[corner_at_[point]].count == 0; }
+  /// Returns the points that a face with these edges leaves out: where its outline runs straight
+  /// on. At the end of a cut into it, it turns back, though other faces may run on.
+  std::unordered_set<uint32_t> left_out(const std::vector<FaceEdge>& edges) const {
+    std::unordered_map<uint32_t, uint32_t> neighbor_of;
+    std::unordered_set<uint32_t> result;
+    for (const FaceEdge& edge : edges) {
+      for (const auto& [point, neighbor] :
+           {std::pair(edge.from, edge.to), std::pair(edge.to, edge.from)}) {
+        if (!runs_straight(point)) continue;
+        if (neighbor_of.emplace(point, neighbor).first->second != neighbor) result.insert(point);
+      }
+    }
+    return result;
+  }
 
   /// Returns where the edge ends if points that are left out are passed.
-  uint32_t end_of(const FaceEdge& edge) const {
+  uint32_t end_of(const FaceEdge& edge, const std::unordered_set<uint32_t>& passed) const {
     uint32_t from = edge.from;
     uint32_t to = edge.to;
-    while (is_left_out(to)) {
+    while (passed.contains(to)) {
       const auto& neighbors = corners_[corner_at_[to]].neighbors;
       const uint32_t next = neighbors[0] == from ? neighbors[1] : neighbors[0];
       from = std::exchange(to, next);
@@ -187,18 +183,16 @@ class FaceMerger {
 
   std::vector<FaceTriangle> face(const std::vector<uint32_t>& pieces,
                                  const std::vector<FaceEdge>& edges) const {
-    if (pieces.size() == 1 &&
-        std::ranges::none_of(edges, [&](const FaceEdge& edge) { return is_left_out(edge.from); })) {
-      return unmerged(pieces);
-    }
+    const std::unordered_set<uint32_t> passed = left_out(edges);
+    if (pieces.size() == 1 && passed.empty()) return unmerged(pieces);
     const int axis = pieces_.axis(piece(pieces.front()));
     std::vector<std::pair<uint32_t, uint32_t>> outline;
     std::unordered_map<uint32_t, ArrangedPoint> points;
     GridPoint least{};
     GridPoint most{};
     for (const FaceEdge& edge : edges) {
-      if (is_left_out(edge.from)) continue;
-      outline.emplace_back(edge.from, end_of(edge));
+      if (passed.contains(edge.from)) continue;
+      outline.emplace_back(edge.from, end_of(edge, passed));
       // Of an open surface an end may be no start.
       for (const uint32_t end : {outline.back().first, outline.back().second}) {
         const auto& point = points.emplace(end, pieces_.point(end)).first->second;
