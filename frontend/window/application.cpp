@@ -68,6 +68,7 @@ frontend::FollowOptions follow_options(const frontend::Options& options) {
   frontend::FollowOptions result;
   result.openscad_arguments = options.openscad_arguments;
   result.evaluator = options.evaluator;
+  result.language = options.language;
   result.import = options.import;
   result.import.keeps_places = true;
   result.import.keeps_meshes = true;  // edges may be switched on at any time

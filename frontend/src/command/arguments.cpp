@@ -1,5 +1,7 @@
 #include "command/arguments.hpp"
 
+#include <cstdlib>
+
 #include "frontend/error.hpp"
 
 namespace frontend {
@@ -95,6 +97,15 @@ std::string read_camera(const Arguments& arguments, CameraOptions& camera) {
 
 RendererKind read_renderer(const Arguments& arguments) {
   return choice(arguments, "renderer", kRenderers, RendererKind::kAuto);
+}
+
+language::LanguageVersion read_language(const Arguments& arguments) {
+  const char* const known = std::getenv("SCADRAY_LANGUAGE");
+  const language::LanguageVersion* const version = find_word(kLanguages, known ? known : "");
+  if (!version && known && *known != '\0')
+    fail(std::string("SCADRAY_LANGUAGE=") + known + " is not understood",
+         "set it to 2021.01 or 2026");
+  return choice(arguments, "language", kLanguages, version ? *version : kDefaultLanguage);
 }
 
 std::vector<std::string> openscad_arguments_of(const Arguments& arguments) {

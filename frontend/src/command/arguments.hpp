@@ -121,6 +121,8 @@ void read_image_size(const Arguments& arguments, CameraOptions& camera);
 std::string read_camera(const Arguments& arguments, CameraOptions& camera);
 /// Reads --renderer; without it, returns kAuto.
 RendererKind read_renderer(const Arguments& arguments);
+/// Returns the version of the language, which the environment sets where the option does not.
+language::LanguageVersion read_language(const Arguments& arguments);
 /// Returns the options that only openscad can follow, as they are handed on to it: -D, -p, -P, -m,
 /// --hardwarnings, --check-parameters, --check-parameter-ranges.
 std::vector<std::string> openscad_arguments_of(const Arguments& arguments);

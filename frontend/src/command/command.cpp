@@ -146,6 +146,7 @@ class Run {
     reading.import.measures_leaves = sees_all(options_.camera);
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
+    reading.language = options_.language;
     reading.camera = camera_choice(options_);
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame_);

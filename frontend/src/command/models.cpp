@@ -68,6 +68,7 @@ class ModelRun {
     reading.import.tolerance = options_.model_tolerance;
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
+    reading.language = options_.language;
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame);
     reading.wants_files = !options_.rule_path.empty();

@@ -90,6 +90,7 @@ constexpr OptionRow kOwnOptions[] = {
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
     kEvaluatorOption,
+    kLanguageOption,
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
      "is exactly round",

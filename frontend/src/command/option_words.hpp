@@ -33,6 +33,8 @@ constexpr Word<ModelFormat> kModelFormats[] = {
     {"pdf", ModelFormat::kPdf}};
 constexpr Word<Evaluator> kEvaluators[] = {{"own", Evaluator::kOwn},
                                            {"openscad", Evaluator::kOpenScad}};
+constexpr Word<language::LanguageVersion> kLanguages[] = {
+    {"2021.01", language::LanguageVersion::k2021}, {"2026", language::LanguageVersion::k2026}};
 constexpr Word<csgcore::Projection> kProjections[] = {
     {"o", csgcore::Projection::kOrthographic},
     {"ortho", csgcore::Projection::kOrthographic},
@@ -91,6 +93,11 @@ constexpr OptionRow kParameterSetOption{"P,P", Takes::kText, "SET",
 constexpr OptionRow kEvaluatorOption{
     "evaluator", Takes::kText, "WHO",
     "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>};
+constexpr OptionRow kLanguageOption{
+    "language", Takes::kText, "VERSION",
+    "the OpenSCAD whose language a .scad is in: 2021.01, the last release, or 2026, the "
+    "development snapshots; default: $SCADRAY_LANGUAGE, 2021.01",
+    kOneOf<kLanguages>};
 constexpr OptionRow kTimeoutOption{"openscad-timeout", Takes::kText, "SECONDS",
                                    "without effect: what is not drawn is left out"};
 constexpr OptionRow kSkipOption{"skip-unsupported", Takes::kNothing, "",

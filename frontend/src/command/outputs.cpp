@@ -83,6 +83,7 @@ class TextRun {
     if (!known || (wants_openscad && kind_of(options_.input) != DesignKind::kImported)) {
       return write_by_openscad(options_, output_, text_);
     }
+    known->language = options_.language;
     known->camera = camera_choice(options_);
     known->is_preview = options_.import.picture != PictureKind::kRendered;
     bool is_read = true;

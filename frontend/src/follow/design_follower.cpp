@@ -209,6 +209,7 @@ class DesignFollower::Follower {
     options.import.solids = solids_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
+    options.language = options_.language;
     options.camera = language::CameraChoice::kWindow;
     options.cache = cache_;
     options.progress = [this](const char* stage) { activity_.update(stage); };

@@ -108,7 +108,8 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
 }
 
 /// Finds what the main file of a .scad offers, also of one that cannot be evaluated.
-void find_parameters(DesignReading& reading, const std::string& path) {
+void find_parameters(DesignReading& reading, const std::string& path,
+                     language::LanguageVersion language) {
   std::shared_ptr<const DesignParameters>& known = reading.good.parameters;
   const std::optional<FileText>& stream = reading.good.stream;
   std::error_code failed;
@@ -119,7 +120,7 @@ void find_parameters(DesignReading& reading, const std::string& path) {
   if (is_scad && (stream || std::filesystem::is_regular_file(path, failed))) {
     const FileText text = stream ? *stream : read_file(path);
     if (!known || known->text != text.view()) {
-      auto list = language::customizer_parameters(text.view());
+      auto list = language::customizer_parameters(text.view(), language);
       if (list) {
         known = std::make_shared<const DesignParameters>(
             DesignParameters{std::string(text.view()), std::move(*list)});
@@ -151,7 +152,7 @@ DesignReading read_anew(const std::string& path, const DesignFileOptions& option
   reading.good = before;
   reading.version.inputs = options.inputs;
   report_failures(path, reading, [&] { read_into(reading, path, options, stop); });
-  report_failures(path, reading, [&] { find_parameters(reading, path); });
+  report_failures(path, reading, [&] { find_parameters(reading, path, options.language); });
   reading.version.stream = reading.good.stream;
   return reading;
 }

@@ -22,11 +22,13 @@
 #include <vector>
 
 #include "language/customizer_parameter.hpp"
+#include "language/language_version.hpp"
 
 namespace language {
 
 /// Returns the parameters in the text of a main file, in its order. Nothing if it cannot be parsed.
 /// Files that it includes are not looked at.
-std::optional<std::vector<CustomizerParameter>> customizer_parameters(std::string_view text);
+std::optional<std::vector<CustomizerParameter>> customizer_parameters(
+    std::string_view text, LanguageVersion version = LanguageVersion::k2021);
 
 }  // namespace language

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "language/evaluation_cache.hpp"
+#include "language/language_version.hpp"
 #include "language/node_tree.hpp"
 #include "language/parameter_value.hpp"
 #include "language/source_files.hpp"
@@ -26,6 +27,7 @@ enum class CameraChoice : uint8_t {
 };
 
 struct EvaluationOptions {
+  LanguageVersion language = LanguageVersion::k2021;
   std::vector<std::string> definitions;       // -D, in order, as typed
   std::string parameter_file, parameter_set;  // -p, -P; empty: none
   std::optional<ParameterSet> parameters;     // in place of that set

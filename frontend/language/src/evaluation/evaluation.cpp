@@ -60,7 +60,8 @@ class Session {
         text_(text),
         kept_(options.cache ? &options.cache->parts() : nullptr),
         tree_(std::make_shared<NodeTree>()),
-        program_(kept_ ? std::make_unique<Program>(kept_->sources) : std::make_unique<Program>()),
+        program_(kept_ ? std::make_unique<Program>(dialect_of(options.language), kept_->sources)
+                       : std::make_unique<Program>(dialect_of(options.language))),
         messages_(program_->files, [this](const Message& message) { take(message); }) {}
 
   Evaluation run();
@@ -291,7 +292,7 @@ Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
                     const MessageSink& sink, std::optional<std::string_view> text) {
   if (options.cache)
     options.cache->parts().begin(
-        {options.check_parameters, options.check_ranges, options.hard_warnings});
+        {options.language, options.check_parameters, options.check_ranges, options.hard_warnings});
   return Session(path, options, sink, text).run();
 }
 

@@ -28,7 +28,8 @@ void EvaluationCache::Parts::begin(const Checks& checks) {
   constexpr size_t kMostUnused = 1000;
   constexpr size_t kBuiltins = 100;  // names that each evaluation knows, at least
   if (first_size_ == 0 && sources->size() > kBuiltins) first_size_ = sources->size();
-  if (first_size_ != 0 && sources->size() > 2 * first_size_ + kMostUnused) {
+  const bool has_many_unused = first_size_ != 0 && sources->size() > 2 * first_size_ + kMostUnused;
+  if (has_many_unused || checks.language != checks_.language) {
     sources = std::make_shared<KeptSources>();
     first_size_ = 0;
     tops.clear();

@@ -11,6 +11,7 @@
 
 #include "base/name_table.hpp"
 #include "language/evaluation_cache.hpp"
+#include "language/language_version.hpp"
 #include "language/node_tree.hpp"
 #include "language/source_files.hpp"
 #include "language/value.hpp"
@@ -79,6 +80,7 @@ struct KeptCalls {
 struct EvaluationCache::Parts {
   /// Options on which it depends what an evaluation says.
   struct Checks {
+    LanguageVersion language = LanguageVersion::k2021;
     bool parameters = true, ranges = false, warnings_are_errors = false;
     bool operator==(const Checks&) const = default;
   };

@@ -1,5 +1,6 @@
 #include "syntax/characters.hpp"
 
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -147,17 +148,32 @@ TokenKind sign_kind(const char* text) {
   }
 }
 
-size_t append_escape(const char* text, std::string& value) {
+size_t hexadecimal_length(const char* text) {
+  constexpr size_t kPrefix = 2;
+  if (text[0] != '0' || text[1] != 'x') return 0;
+  size_t length = kPrefix;
+  while (hexadecimal(text + length, 1)) ++length;
+  return length > kPrefix ? length : 0;
+}
+
+std::optional<uint64_t> hexadecimal_integer(std::string_view number) {
+  const std::string_view digits = number.substr(2);
+  uint64_t integer = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), integer, 16);
+  return read.ec == std::errc() ? std::optional(integer) : std::nullopt;
+}
+
+Escape append_escape(const char* text, std::string& value) {
   constexpr std::string_view kLetters = "ntr\"\\", kMeanings = "\n\t\r\"\\";
   if (const size_t found = kLetters.find(text[1]); found != kLetters.npos) {
     value += kMeanings[found];
-    return 2;
+    return {2, true};
   }
   const size_t digits = code_digits(text[1]);
   const auto code = hexadecimal(text + 2, digits);
-  if (digits == 0 || !code || (digits == 2 && *code > 0x7F)) return 1;
+  if (digits == 0 || !code || (digits == 2 && *code > 0x7F)) return {1, false};
   append_code_point(*code, value);
-  return 2 + digits;
+  return {2 + digits, true};
 }
 
 }  // namespace language

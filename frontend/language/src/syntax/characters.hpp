@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -66,9 +67,19 @@ inline bool is_two_bytes(TokenKind kind) {
   return TokenKind::kLessEqual <= kind && kind <= TokenKind::kShiftRight;
 }
 
-/// Appends what the escape at the start of a text stands for, and returns the escape's length. A
-/// backslash that begins none stands for nothing. The text begins with a backslash and ends with
-/// a NUL.
-size_t append_escape(const char* text, std::string& value);
+/// Returns the length of a hexadecimal number, `0x1F`, at the start of a text; 0: there is none.
+size_t hexadecimal_length(const char* text);
+
+/// Returns the value of a hexadecimal number; nothing if it takes more than 64 bits.
+std::optional<uint64_t> hexadecimal_integer(std::string_view number);
+
+struct Escape {
+  size_t length;
+  bool is_defined;
+};
+
+/// Appends what the escape at the start of a text stands for. A backslash that begins none stands
+/// for nothing. The text begins with a backslash and ends with a NUL.
+Escape append_escape(const char* text, std::string& value);
 
 }  // namespace language

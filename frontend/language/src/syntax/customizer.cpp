@@ -23,7 +23,8 @@ const Scope* parse_alone(Program& program, std::string_view text) {
   Messages messages(program.files, [](const Message&) {});
   messages.set_main_file(file, {});
   NoFiles no_files;
-  Lexer lexer(program.files, program.names, program.arena, messages, no_files, {file, {}, false});
+  Lexer lexer(program.dialect, program.files, program.names, program.arena, messages, no_files,
+              {file, {}, false});
   Parser parser(lexer, program, messages, {});
   try {
     return parser.parse_file();
@@ -235,8 +236,9 @@ std::optional<ParameterValue> value_of_text(std::string_view text, const Paramet
   return literal ? literal_value(*literal) : std::nullopt;
 }
 
-std::optional<std::vector<CustomizerParameter>> customizer_parameters(std::string_view text) {
-  Program program;
+std::optional<std::vector<CustomizerParameter>> customizer_parameters(std::string_view text,
+                                                                      LanguageVersion version) {
+  Program program(dialect_of(version));
   const Scope* scope = nullptr;
   with_deep_stack([&] { scope = parse_alone(program, text); });
   if (!scope) return std::nullopt;

@@ -75,7 +75,12 @@ void Parser::parse_top_statement(ScopeBuilder& scope) {
   set_arena(&program_.arena);
   const Place end = boundary();
   const bool is_silent = messages_.warnings() - warnings_of_top_level_ == warnings;
-  if (!is_silent || unsaid_ != unsaid || is_behind_file_ || lexer_.entries() != entries) return;
+  const Place remark = lexer_.last_remark();
+  const bool has_remark =
+      remark.file == begin.file && remark.offset > begin.offset && remark.offset <= end.offset;
+  if (!is_silent || has_remark || unsaid_ != unsaid || is_behind_file_ ||
+      lexer_.entries() != entries)
+    return;
   KeptStatement statement = start;
   statement.end = end.offset;
   file->add(statement, items_);

@@ -1,6 +1,9 @@
 #include "syntax/lexer.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -9,10 +12,27 @@
 #include "syntax/characters.hpp"
 
 namespace language {
+namespace {
 
-Lexer::Lexer(SourceFiles& files, NameTable& names, Arena& arena, Messages& messages,
-             FileLookup& lookup, const Main& main)
-    : files_(files),
+constexpr size_t kLeastImprecise = 16;                   // digits of the least such integer
+constexpr double kMostInteger = 18446744073709551615.0;  // what larger ones become
+
+std::string imprecise_text(std::string_view number) {
+  return "Integer \"" + std::string(number) + "\" cannot be represented precisely";
+}
+
+bool is_integer_of(double number, uint64_t integer) {
+  constexpr double kEnd = 18446744073709551616.0;  // 2^64
+  // OpenSCAD converts all ones, too, and finds them the same.
+  return number >= kEnd || static_cast<uint64_t>(number) == integer;
+}
+
+}  // namespace
+
+Lexer::Lexer(const Dialect& dialect, SourceFiles& files, NameTable& names, Arena& arena,
+             Messages& messages, FileLookup& lookup, const Main& main)
+    : dialect_(dialect),
+      files_(files),
       names_(names),
       arena_(&arena),
       messages_(messages),
@@ -36,7 +56,7 @@ void Lexer::enter(FileId file, const char* cursor) {
 
 /// Goes on in the file that includes the current one. Returns false if none does.
 bool Lexer::leave() {
-  if (!includers_.empty()) check_may_change_file();
+  if (!includers_.empty()) check_is_no_preparsing();
   lookup_.leave(file_);
   if (includers_.empty()) return false;
   Includer includer = std::move(includers_.back());
@@ -57,6 +77,16 @@ inline bool Lexer::lex_word(Token& token) {
   if (begins_number(*begin)) {
     const size_t digits = number_length(begin);
     if (digits > 0 && digits >= length) return lex_number(token, digits);
+    if (dialect_.has_hexadecimal_numbers && hexadecimal_length(begin) >= length) {
+      lex_hexadecimal(token, length);
+      return true;
+    }
+    if (dialect_.deprecates_digits_first) {
+      remark(MessageGroup::kDeprecated,
+             "Variable names starting with digits (\"" + std::string(begin, length) +
+                 "\") will be removed in future releases.",
+             token.place);
+    }
   } else if (length == 1 && *begin == '$') {
     lex_sign(token);
     return true;
@@ -148,11 +178,52 @@ bool Lexer::skip_block_comment() {
 
 /// A number that is too large vanishes.
 bool Lexer::lex_number(Token& token, size_t length) {
-  const auto number = decimal_number({cursor_, length});
+  const std::string_view text(cursor_, length);
+  auto number = decimal_number(text);
+  if (dialect_.tells_imprecise_integers && text.size() >= kLeastImprecise &&
+      text.find_first_not_of("0123456789") == text.npos) {
+    if (!number) number = kMostInteger;
+    tell_imprecise(text, *number, token.place);
+  }
   cursor_ += length;
   token.kind = TokenKind::kNumber;
   token.number = number.value_or(0);
   return number.has_value();
+}
+
+void Lexer::lex_hexadecimal(Token& token, size_t length) {
+  const std::string_view text(cursor_, length);
+  token.kind = TokenKind::kNumber;
+  if (const auto integer = hexadecimal_integer(text)) {
+    token.number = static_cast<double>(*integer);
+    if (!is_integer_of(token.number, *integer))
+      remark(MessageGroup::kWarning, imprecise_text(text), token.place);
+  } else {
+    token.number = kMostInteger;
+    remark(MessageGroup::kWarning, "Hexadecimal constant \"" + std::string(text) + "\" too large",
+           token.place);
+  }
+  cursor_ += length;
+}
+
+/// Says that a whole number of decimal digits is not the number that was read, if so.
+void Lexer::tell_imprecise(std::string_view digits, double number, Place place) {
+  constexpr size_t kMostDigits = 310;  // of a double
+  std::array<char, kMostDigits> text;
+  const char* const end =
+      std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed).ptr;
+  const std::string_view significant =
+      digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
+  if (significant != std::string_view(text.data(), static_cast<size_t>(end - text.data())))
+    remark(MessageGroup::kWarning, imprecise_text(digits), place);
+}
+
+/// Says something about the token that is being read.
+void Lexer::remark(MessageGroup group, std::string text, Place place) {
+  check_is_no_preparsing();
+  messages_.say(group, std::move(text), place, PathBase::kMainFile);
+  last_remark_ = position();
+  check_warnings();
 }
 
 void Lexer::lex_sign(Token& token) {
@@ -174,7 +245,10 @@ void Lexer::lex_string(Token& token) {
   while (*cursor_ != '"') {
     if (cursor_ == end_) return lex_unterminated(token, "string");
     if (*cursor_ == '\\') {
-      cursor_ += append_escape(cursor_, string_);
+      const Escape escape = append_escape(cursor_, string_);
+      if (!escape.is_defined && dialect_.tells_undefined_escapes)
+        remark(MessageGroup::kWarning, "Undefined escape sequence", position());
+      cursor_ += escape.length;
       continue;
     }
     if (*cursor_ != '\n' && *cursor_ != '\0') string_ += *cursor_;
@@ -199,18 +273,27 @@ void Lexer::skip_to_path() {
   ++cursor_;
 }
 
-/// Skips what separates the parts of a path. Returns false at the end of the path or of the file.
-bool Lexer::reach_path_part() {
-  for (; *cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n'; ++cursor_) {
-    if (*cursor_ != '\n') continue;
-    --error_lines_.first;  // which is not counted
-    source_->note_uncounted_feed(offset_of(cursor_));
+/// Skips what separates the parts of a path of a statement. Returns false at the end of the path or
+/// of the file.
+bool Lexer::reach_path_part(std::string_view statement) {
+  while (*cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n') {
+    const bool is_line_feed = *cursor_++ == '\n';
+    if (!is_line_feed) continue;
+    if (dialect_.counts_lines_of_paths) {
+      remark(MessageGroup::kWarning,
+             "new lines " + std::string(statement) +
+                 "-statement is not defined - behavior may change in the future",
+             position());
+    } else {
+      --error_lines_.first;
+      source_->note_uncounted_feed(offset_of(cursor_ - 1));
+    }
   }
   return *cursor_ != '>' && cursor_ < end_;
 }
 
 bool Lexer::lex_path(Token& token) {
-  check_may_change_file();
+  check_is_no_preparsing();
   if (token.name == kIncludeName) return lex_include(token);
   lex_use(token);
   return true;
@@ -220,7 +303,7 @@ bool Lexer::lex_include(Token& token) {
   std::string path_folder;
   last_path_name_.clear();
   skip_to_path();
-  while (reach_path_part()) {
+  while (reach_path_part("in 'include<>'")) {
     const std::string_view part(cursor_, path_part_length(cursor_, end_));
     const size_t slash = part.rfind('/');
     if (slash != part.npos) path_folder = part.substr(0, slash + 1);
@@ -249,7 +332,7 @@ bool Lexer::lex_include(Token& token) {
 void Lexer::lex_use(Token& token) {
   token.kind = TokenKind::kUse;
   skip_to_path();
-  while (reach_path_part()) {
+  while (reach_path_part("'use<>'")) {
     const size_t length = path_part_length(cursor_, end_);
     last_path_name_.assign(cursor_, length);
     cursor_ += length;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/dialect.hpp"
 #include "base/name_table.hpp"
 #include "language/source_files.hpp"
 #include "messages/messages.hpp"
@@ -61,8 +62,8 @@ class Lexer {
 
   /// Lexes a file. `names` must begin with kFirstNames. Texts
   /// of tokens lie in the arena.
-  Lexer(SourceFiles& files, NameTable& names, Arena& arena, Messages& messages, FileLookup& lookup,
-        const Main& main);
+  Lexer(const Dialect& dialect, SourceFiles& files, NameTable& names, Arena& arena,
+        Messages& messages, FileLookup& lookup, const Main& main);
 
   /// Reads the next token. Says messages about what is not terminated, whose token is kUnknown.
   void next(Token& token) {
@@ -82,9 +83,11 @@ class Lexer {
   const std::string& last_path_name() const { return last_path_name_; }
   /// Returns how often another file was entered: text between which it differs is not of one file.
   uint32_t entries() const { return entries_; }
+  /// Returns where the last token of which something was said ends.
+  Place last_remark() const { return last_remark_; }
   Arena* arena() const { return arena_; }
   /// Sets where texts of tokens lie. Null: tokens get no text, and where another file would be
-  /// entered NotPreparsed is thrown, before anything is done.
+  /// entered or something is to be said NotPreparsed is thrown, before anything is done.
   void set_arena(Arena* arena) { arena_ = arena; }
   /// Says a parser error about the last token, and throws SyntaxError.
   [[noreturn]] void fail(const std::string& text) const;
@@ -110,7 +113,7 @@ class Lexer {
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();
-  void check_may_change_file() const {
+  void check_is_no_preparsing() const {
     if (!arena_) throw NotPreparsed();
   }
 
@@ -121,18 +124,22 @@ class Lexer {
   bool lex(Token& token);
   bool lex_word(Token& token);
   bool lex_number(Token& token, size_t length);
+  void lex_hexadecimal(Token& token, size_t length);
   void lex_sign(Token& token);
   void lex_string(Token& token);
   bool lex_path(Token& token);
   bool lex_include(Token& token);
   void lex_use(Token& token);
+  void remark(MessageGroup group, std::string text, Place place);
+  void tell_imprecise(std::string_view digits, double number, Place place);
   bool begins_path() const;
   void skip_to_path();
-  bool reach_path_part();
+  bool reach_path_part(std::string_view statement);
   std::string_view store(std::string_view text);
   void say_error(const std::string& text) const;
   void lex_unterminated(Token& token, std::string_view what);
 
+  const Dialect& dialect_;
   SourceFiles& files_;
   NameTable& names_;
   Arena* arena_;
@@ -151,6 +158,7 @@ class Lexer {
   const char* end_ = nullptr;
   const char* blank_begin_ = nullptr;
   uint32_t entries_ = 0;
+  Place last_remark_{};
   bool is_in_comment_ = false;  // at the end of the file, whose last line is a comment
   ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read

@@ -160,7 +160,7 @@ const Expression* LiteralMaker::make_element(std::string_view text) {
     if (*at == '\\' && std::strchr("xuU", at[1])) {
       ++at;  // these escapes are unknown here
     } else if (*at == '\\') {
-      at += append_escape(at, value);
+      at += append_escape(at, value).length;
     } else {
       value += *at++;
     }

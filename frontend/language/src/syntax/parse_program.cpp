@@ -43,8 +43,8 @@ auto& DefinitionReader::content_of(const Definition& definition, Parse parse) {
   auto& content = *definition.content;
   if (!content.body) {
     NoFiles no_files;
-    Lexer lexer(program_.files, program_.names, *content.arena, messages_, no_files,
-                {definition.place.file, {}, false});
+    Lexer lexer(program_.dialect, program_.files, program_.names, *content.arena, messages_,
+                no_files, {definition.place.file, {}, false});
     lexer.go_on_at(definition.extent.begin);
     Parser parser(lexer, program_, messages_, stop_);
     content = *parse(parser).content;

@@ -100,14 +100,15 @@ bool Parser::say_overwritten(const Assignment& assignment, Place first) {
     return files_[place.file].path == files_[messages_.main_file()].path;
   };
   const uint32_t line = files_.message_line(first);
-  std::string text =
-      std::string(names_.text(assignment.name)) + " was assigned on line " + std::to_string(line);
+  std::string of_file;
   if (!is_main(first) || !is_main(second)) {
     const bool is_same = path(first.file) == path(second.file);
     if (is_same ? line == files_.message_line(second) : !is_main(first)) return false;
-    text += " of \"" + path(first.file) + "\"";
+    of_file = " of \"" + path(first.file) + "\"";
   }
-  messages_.warn(text + " but was overwritten", second);
+  const std::string text = filled(program_.dialect.overwritten,
+                                  {names_.text(assignment.name), std::to_string(line), of_file});
+  messages_.warn(text, second);
   lexer_.check_warnings();
   return true;
 }

@@ -77,12 +77,17 @@ class Parser {
     consume();
     return true;
   }
-  /// Consumes commas, and returns how many.
+  /// Consumes a comma, or several where they may be doubled. Returns how many.
   int accept_commas() {
     int count = 0;
-    while (accept(',')) ++count;
+    while (accept(',')) {
+      ++count;
+      if (!program_.dialect.has_doubled_commas) break;
+    }
     return count;
   }
+  /// Consumes commas before a list, if it may have some.
+  int accept_leading_commas() { return program_.dialect.has_doubled_commas ? accept_commas() : 0; }
   [[noreturn]] void fail_at_token() const { lexer_.fail("syntax error"); }
 
   // The top level: kept_statements.cpp.

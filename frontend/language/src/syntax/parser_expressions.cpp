@@ -243,14 +243,13 @@ bool Parser::begins_expression() {
 std::span<const Argument> Parser::parse_arguments() {
   ArenaList<Argument> arguments(arguments_);
   const auto is_at_end = [&] { return peek().is(')') || peek().is(';'); };
-  while (!is_at_end()) {
+  if (accept_leading_commas() == 0 && is_at_end()) return {};
+  for (;;) {
+    arguments.push(parse_argument());
     const int commas = accept_commas();
     // OpenSCAD 2021.01 knows no comma behind the last argument.
-    if (commas == 1 && arguments.size() > 0 && is_at_end()) break;
-    arguments.push(parse_argument());
-    if (!peek().is(',')) break;
+    if (commas == 0 || (commas == 1 && is_at_end())) return make(arguments);
   }
-  return make(arguments);
 }
 
 Argument Parser::parse_argument() {
@@ -263,10 +262,10 @@ Argument Parser::parse_argument() {
   return {name, parse_expression(), place};
 }
 
-/// Any number of commas may stand between, before and behind parameters.
+/// In 2021.01 any number of commas may stand between, before and behind parameters.
 std::span<const Parameter> Parser::parse_parameters() {
   ArenaList<Parameter> parameters(parameters_);
-  accept_commas();
+  accept_leading_commas();
   while (peek().is(TokenKind::kName)) {
     parameters.push(parse_parameter());
     if (accept_commas() == 0) break;

@@ -3,16 +3,16 @@
 
 namespace language {
 
-/// Reads a vector or a range. Its first element may be no comprehension in parentheses.
+/// Reads a vector or a range.
 const Expression* Parser::parse_bracket() {
   const Nested nested(*this, 1);
   const Place start = take_place();
-  const bool has_commas = accept_commas() > 0;
+  const bool has_commas = accept_leading_commas() > 0;
   if (accept(']'))
     return make<VectorExpression>(ExpressionKind::kVector, start,
                                   std::span<const Expression* const>{});
   if (has_commas) fail_at_token();
-  const Element first = parse_element(false);
+  const Element first = parse_element(program_.dialect.has_comprehension_first);
   if (!first.is_comprehension && peek().is(':')) return parse_range(first.node, start);
   return parse_vector(first, start);
 }
@@ -30,7 +30,7 @@ const Expression* Parser::parse_range(const Expression* begin, Place start) {
   return make<RangeExpression>(ExpressionKind::kRange, start, begin, step, end);
 }
 
-/// Reads the elements behind the first. Commas may be doubled, and stand behind the last element.
+/// Reads the elements behind the first. Commas may stand behind the last element.
 const Expression* Parser::parse_vector(const Element& first, Place start) {
   ArenaList<const Expression*> elements(elements_);
   elements.push(first.node);

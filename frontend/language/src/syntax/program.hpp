@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/dialect.hpp"
 #include "base/name_table.hpp"
 #include "language/source_files.hpp"
 #include "syntax/arena.hpp"
@@ -38,15 +39,17 @@ struct ParseOptions {
 };
 
 struct Program {
-  /// `sources` are what programs of a design share.
-  explicit Program(std::shared_ptr<KeptSources> sources = std::make_shared<KeptSources>())
-      : kept(std::move(sources)), names(kept->names) {}
+  /// `sources` are what programs of a design share that are in the same dialect.
+  explicit Program(const Dialect& of = dialect_of(LanguageVersion::k2021),
+                   std::shared_ptr<KeptSources> sources = std::make_shared<KeptSources>())
+      : dialect(of), kept(std::move(sources)), names(kept->names) {}
 
   /// Returns the kept file of a number; null: the main file.
   KeptFile* kept_file(FileId file) const {
     return file < kept_files.size() ? kept_files[file].get() : nullptr;
   }
 
+  const Dialect& dialect;
   std::shared_ptr<KeptSources> kept;
   NameTable& names;
   std::vector<std::shared_ptr<KeptFile>> kept_files;  // by number

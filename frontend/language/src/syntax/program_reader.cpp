@@ -133,7 +133,7 @@ void ProgramReader::set_main_unit(uint32_t unit) {
 bool ProgramReader::parse(uint32_t unit_number) {
   current_unit_ = unit_number;
   Unit& unit = program_.units[unit_number];
-  Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
+  Lexer lexer(program_.dialect, program_.files, program_.names, program_.arena, messages_, *this,
               {unit.file, unit.folder, options_.hard_warnings, last_path_name_});
   Parser parser(lexer, program_, messages_, options_.stop);
   try {
