@@ -16,7 +16,8 @@ std::vector<uint32_t> order_of(const std::vector<std::string_view>& parameters,
   std::vector<Argument> given;
   for (const auto argument : arguments)
     given.push_back({argument.empty() ? kNoName : names.intern(argument), nullptr, {}});
-  const ArgumentPlan plan = plan_arguments(given, list, list.targets.size(), {}, names);
+  const ArgumentPlan plan = plan_arguments(given, list, list.targets.size(), {}, names,
+                                           dialect_of(LanguageVersion::k2021));
   std::vector<uint32_t> order;
   for (const ArgumentPlan::Step& step : plan.steps) order.push_back(step.argument);
   if (warnings)

@@ -49,11 +49,68 @@ class Dialect {
   /// Whether a vector's first element may be a comprehension in parentheses.
   const bool has_comprehension_first = row(false, true);
 
+  // Scopes and calls
+
+  /// Whether the left operand of an operator is evaluated first, and a container before its index.
+  const bool evaluates_left_first = row(false, true);
+  /// Whether all arguments are evaluated as they are written, and before anything else of the call:
+  /// before the warnings about them, the defaults of what is not given, and the `$` names that they
+  /// bind. In 2021.01 the order is that of a table, all defaults and the warnings come first, and
+  /// `$` names are bound one by one.
+  const bool has_arguments_first = row(false, true);
+  /// Whether an unnamed argument goes to the next parameter that has none, and not simply to the
+  /// next one.
+  const bool fills_free_parameters = row(false, true);
+  /// Whether the last default counts of a parameter that is listed twice; else the first.
+  const bool takes_last_default = row(true, false);
+  /// Whether a block is evaluated when the children of its call are, each time; else before the
+  /// call's arguments, which see its variables.
+  const bool has_blocks_at_children = row(false, true);
+  /// Whether children() and the operations are modules like others, whose arguments are all
+  /// evaluated and checked; children() then always makes a group.
+  const bool has_plain_children = row(false, true);
+  /// Whether primitives refuse a block that has assignments only.
+  const bool refuses_assignments = row(true, false);
+  /// Whether the `$` names of a used file's top level are seen there alone, and not by what it
+  /// defines.
+  const bool forgets_names_of_units = row(false, true);
+  /// Whether a `$` name can be called.
+  const bool calls_dynamic_names = row(false, true);
+  /// Whether each call in tail position starts the frame anew; else those by the running function's
+  /// own name, whatever it means.
+  const bool has_all_tail_calls = row(false, true);
+  /// Whether each round of a loop in a vector has its own variables.
+  const bool has_scopes_of_rounds = row(false, true);
+
+  /// Whether the increments of a C-style for bind `$` names until the loop's end.
+  const bool keeps_names_of_increments = row(false, true);
+  /// Whether assert() without a condition is said to miss one.
+  const bool misses_condition = row(true, false);
+  /// The elements from which on a range is too long for the module for().
+  const uint32_t too_many_rounds = row(10'000u, 1'000'000u);
+  /// Whether traces name assignments, and the parameters of modules.
+  const bool has_full_traces = row(false, true);
+
   // Words, with {} for what they speak of
 
   const std::string_view overwritten =
       words("{} was assigned on line {}{} but was overwritten",
             "\"{}\" was assigned on line {}{} but was overwritten");
+  const std::string_view undeclared_argument =
+      words("variable {} not specified as parameter", "variable \"{}\" not specified as parameter");
+  const std::string_view repeated_argument =
+      words("argument {} supplied more than once", "argument \"{}\" supplied more than once");
+  const std::string_view overriding_argument =
+      words("argument {} supplied more than once", "argument \"{}\" overrides positional argument");
+  const std::string_view unknown_variable =
+      words("Ignoring unknown variable '{}'", "Ignoring unknown variable \"{}\"");
+  const bool names_module_of_parameter = row(true, false);
+  const std::string_view overwritten_parameter =
+      words("Module {}: Parameter {} is overwritten with a literal",
+            "Parameter \"{}\" is overwritten with a literal");
+  const std::string_view duplicate_assignment =
+      words("Ignoring duplicate variable assignment {} = {}",
+            "Ignoring duplicate variable assignment \"{}\" = {}");
 };
 
 /// Returns the dialect of a version, which lasts.

@@ -77,17 +77,19 @@ void CodeCompiler::assert_arguments(std::span<const Argument> arguments, Place p
   NameTable& names = const_cast<NameTable&>(compiler_.names());
   const Name parameters[] = {names.intern("condition"), names.intern("message")};
   ParameterList list(parameters, names);
-  const ArgumentPlan plan = plan_arguments(arguments, list, 2, place, names);
+  const ArgumentPlan plan = plan_arguments(arguments, list, 2, place, names, compiler_.dialect());
   warn_of_arguments(plan, place, false);
   const Expression* chosen[2] = {nullptr, nullptr};
   for (const ArgumentPlan::Step& step : plan.steps) {
-    if (!step.target.is_dynamic && step.target.slot < 2)
+    if (!step.is_dropped && !step.target.is_dynamic && step.target.slot < 2)
       chosen[step.target.slot] = arguments[step.argument].value;
   }
   if (chosen[0]) {
     expression(*chosen[0]);
-  } else {
+  } else if (compiler_.dialect().misses_condition) {
     variable(parameters[0], place);
+  } else {
+    out_.emit(Op::kUndef, place, 1);
   }
   if (chosen[1]) expression(*chosen[1]);
   auto& asserts = out_.code().asserts;

@@ -1,4 +1,6 @@
 // Function calls.
+#include <algorithm>
+
 #include "code/code_compiler.hpp"
 
 namespace language {
@@ -15,15 +17,15 @@ void CodeCompiler::call(const CallExpression& call) {
     name = as<VariableExpression>(*call.callee).name;
     named_call(call, name);
   } else {
-    dynamic_call(call);
+    dynamic_call(call, false);
   }
   end_region(region, name, call.callee, call.place);
 }
 
 void CodeCompiler::named_call(const CallExpression& call, Name name) {
-  if (compiler_.names().is_dynamic(name) || may_be_variable(name)) return dynamic_call(call);
+  if (compiler_.names().is_dynamic(name) || may_be_variable(name)) return dynamic_call(call, false);
   if (const auto found = compiler_.find_function(*scope_, name); found.entry)
-    return static_call(call, found);
+    return static_call(call, found, false);
   if (name == compiler_.known().is_undef) return is_undef_call(call);
   if (compiler_.builtins().functions.count(name)) return builtin_call(call, name);
   out_.emit(Op::kUnknownFunction, call.place, 1, name);
@@ -86,11 +88,13 @@ void CodeCompiler::is_undef_call(const CallExpression& call) {
   out_.emit(Op::kIsUndef, call.place, 0);
 }
 
-bool CodeCompiler::binds_dynamic(const Callable& callable,
-                                 std::span<const Argument> arguments) const {
-  for (const Target& target : callable.parameters.targets)
-    if (target.is_dynamic) return true;
-  return names_dynamic(arguments, compiler_.names());
+/// Returns whether a call itself binds `$` names.
+bool CodeCompiler::binds_dynamic(const Callable& callable, const ArgumentPlan& plan) const {
+  const auto& targets = callable.parameters.targets;
+  return std::any_of(targets.begin(), targets.end(),
+                     [](const Target& target) { return target.is_dynamic; }) ||
+         std::any_of(plan.steps.begin(), plan.steps.end(),
+                     [](const ArgumentPlan::Step& step) { return step.target.is_dynamic; });
 }
 
 // The slots of undeclared names follow those of the parameters. The defaults know none of them,
@@ -115,7 +119,9 @@ void CodeCompiler::arguments(const ArgumentPlan& plan, std::span<const Argument>
   for (const ArgumentPlan::Step& step : plan.steps) {
     const Argument& argument = arguments[step.argument];
     expression(*argument.value);
-    if (step.target.is_dynamic) {
+    if (step.is_dropped) {
+      out_.emit(Op::kPop, argument.place, -1);
+    } else if (step.target.is_dynamic) {
       out_.emit(Op::kBindDynamic, argument.place, -1, step.target.name);
     } else {
       out_.emit(Op::kStoreLocal, argument.place, -1, base + step.target.slot);
@@ -123,11 +129,20 @@ void CodeCompiler::arguments(const ArgumentPlan& plan, std::span<const Argument>
   }
 }
 
-void CodeCompiler::static_call(const CallExpression& call, Found<FunctionEntry> found) {
+void CodeCompiler::pass_arguments(const ArgumentPlan& plan, std::span<const Argument> given,
+                                  uint32_t base, Place place) {
+  const bool warns_first = !compiler_.dialect().has_arguments_first;
+  if (warns_first) warn_of_arguments(plan, place, false);
+  arguments(plan, given, base);
+  if (!warns_first) warn_of_arguments(plan, place, false);
+}
+
+void CodeCompiler::static_call(const CallExpression& call, Found<FunctionEntry> found,
+                               bool is_tail) {
   FunctionEntry& function = *found.entry;
   const ArgumentPlan plan = compiler_.plan(function, call.arguments, call.place);
   const uint32_t unit = function.scope->unit;
-  const bool has_mark = binds_dynamic(function, call.arguments) ||
+  const bool has_mark = binds_dynamic(function, plan) ||
                         (found.is_in_other_unit && compiler_.unit(unit).binds_dynamic);
   if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
   if (found.is_in_other_unit) out_.emit(Op::kEnterUnit, call.place, 0, unit);
@@ -141,14 +156,14 @@ void CodeCompiler::static_call(const CallExpression& call, Found<FunctionEntry> 
   const auto number = static_cast<uint32_t>(calls.size());
   calls.push_back(site);
   begin_call(function.parameters, call.place, number);
-  warn_of_arguments(plan, call.place, false);
-  arguments(plan, call.arguments, base);
-  out_.emit(Op::kCall, call.place, 1 - static_cast<int>(site.slots), number);
+  pass_arguments(plan, call.arguments, base, call.place);
+  out_.emit(Op::kCall, call.place, 1 - static_cast<int>(site.slots), number, 0, is_tail ? 1 : 0);
   if (has_mark) out_.emit(Op::kEndDynamic, call.place, -1);
 }
 
-void CodeCompiler::dynamic_call(const CallExpression& call) {
+void CodeCompiler::dynamic_call(const CallExpression& call, bool is_tail) {
   DynamicCall site;
+  site.is_tail = is_tail;
   site.callee = call.callee;
   site.name = kNoName;
   site.arguments = call.arguments;
@@ -191,7 +206,9 @@ void CodeCompiler::dynamic_call(const CallExpression& call) {
     site.argument_code.push_back(out_.here());
     const Argument& given = call.arguments[argument];
     expression(*given.value);
-    if (given.name != kNoName && is_dynamic_name(given.name, compiler_.names())) {
+    const bool is_bound = given.name != kNoName && is_dynamic_name(given.name, compiler_.names()) &&
+                          !compiler_.dialect().has_arguments_first;
+    if (is_bound) {
       out_.emit(Op::kBindDynamic, given.place, -1, given.name);
     } else {
       out_.emit(Op::kStoreLocal, given.place, -1, site.slot + 3 + argument);

@@ -34,7 +34,9 @@ struct Callable {
   /// The following are filled in when a call is compiled or happens: Compiler::prepare().
   bool is_prepared = false;
   ParameterList parameters{};
-  std::vector<Value> initial{};    // per declared slot: the default if it is a literal, else undef
+  /// Per declared slot: the default if it is a literal; else undef, or unset where the callee
+  /// itself evaluates what is not given.
+  std::vector<Value> initial{};
   bool has_default_code = false;   // whether other defaults have to be evaluated
   const Code* defaults = nullptr;  // null: not compiled yet
   const Code* code = nullptr;      // null: not compiled, or no longer valid
@@ -49,10 +51,17 @@ struct ModuleEntry : Callable {
   const Scope* body;
 };
 
+/// The slots that code of a block begins with where children() is a plain module: the selection of
+/// children, and how many of them are done.
+constexpr uint32_t kSelectionSlots = 2;
+
 /// The children of a user module's call.
 struct BlockEntry {
   std::span<const ModuleCall> calls;
-  const ScopeLayout* scope;    // in which they are evaluated
+  const ScopeLayout* scope;  // in which they are evaluated
+  /// What is evaluated before them, each time; null: nothing.
+  const Scope* assigned = nullptr;
+  uint32_t slots = 0;          // kSelectionSlots, or none where each child is run by itself
   const Code* code = nullptr;  // null: not compiled yet
 };
 
@@ -79,6 +88,7 @@ struct DynamicCall {
   bool is_in_unit = false;
   uint32_t unit = 0;
   std::optional<uint32_t> builtin;      // … or a builtin function
+  bool is_tail = false;                 // it takes the place of the running function
   std::vector<uint32_t> argument_code;  // where the code of each argument begins
   uint32_t next = 0;                    // where kNextArgument stands
   uint32_t end = 0;                     // behind the call
@@ -119,6 +129,7 @@ struct TraceRegion {
   std::string_view name;  // empty: the callee's text
   const Expression* callee;
   Place place;
+  bool is_assignment = false;  // to the name, and no call
 };
 
 struct Code {
@@ -141,6 +152,7 @@ struct Code {
   std::vector<AssertSite> asserts;
   std::vector<TraceRegion> regions;
   std::vector<uint32_t> entries;      // of a block: where each child's code begins
+  uint32_t statements = 0;            // of a module: where those behind its assignments begin
   uint32_t slots = 0;                 // that parameters and undeclared arguments take
   uint32_t deepest = 0;               // slots that the frame takes at most
   mutable std::vector<Value> caches;  // defaults of tail calls; unset: not evaluated yet

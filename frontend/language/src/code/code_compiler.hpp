@@ -46,6 +46,7 @@ class CodeCompiler {
   void logical(const BinaryExpression& binary);
   void ternary(const TernaryExpression& ternary);
   void index_chain(const Expression& expression);
+  bool is_silent(const Expression& expression) const;
   void range(const RangeExpression& range);
   void vector(const VectorExpression& vector);
   void literal(const FunctionExpression& literal);
@@ -66,6 +67,7 @@ class CodeCompiler {
   /// kUnknownVariable.
   void variable_or(Name name, Place place, Op otherwise);
   bool may_be_variable(Name name) const;
+  bool is_known_variable(Name name) const;
   void store(Name name, Place place);  // pops into a variable of the innermost scope, or binds it
   void note_top_variable(const ScopeLayout& scope, uint32_t slot);
   uint32_t scope_number(const ScopeLayout& scope) const {
@@ -80,19 +82,26 @@ class CodeCompiler {
   void named_call(const CallExpression& call, Name name);
   void builtin_call(const CallExpression& call, Name name);
   void lazy_call(const CallExpression& call, uint32_t builtin);
-  void static_call(const CallExpression& call, Found<FunctionEntry> found);
-  void dynamic_call(const CallExpression& call);
+  void static_call(const CallExpression& call, Found<FunctionEntry> found, bool is_tail);
+  void dynamic_call(const CallExpression& call, bool is_tail);
   void is_undef_call(const CallExpression& call);
   void begin_call(const ParameterList& parameters, Place place, uint32_t number);
   void arguments(const ArgumentPlan& plan, std::span<const Argument> arguments, uint32_t base);
+  void pass_arguments(const ArgumentPlan& plan, std::span<const Argument> arguments, uint32_t base,
+                      Place place);
   void warn_of_arguments(const ArgumentPlan& plan, Place place, bool once);
-  bool binds_dynamic(const Callable& callable, std::span<const Argument> arguments) const;
+  void defaults_of_callee(const Callable& callable);
+  void bind_parameters(const Callable& callable);
+  bool binds_dynamic(const Callable& callable, const ArgumentPlan& plan) const;
   uint32_t begin_region() const { return out_.here(); }
   void end_region(uint32_t begin, Name name, const Expression* callee, Place place);
 
   // tails.cpp
   void tail(const Expression& expression);  // returns its value from the function
   void tail_call(const CallExpression& call);
+  void named_tail_call(const CallExpression& call);
+  void any_tail_call(const CallExpression& call);
+  void tail_jump(const CallExpression& call);
   void tail_defaults(const ArgumentPlan& plan, std::vector<uint32_t>& slots, Place place);
   /// Returns the variable that such a value reads first, if it is a call of a builtin function:
   /// after give_up(), a concat() finds that nothing else refers to its vector, and appends in
@@ -124,6 +133,7 @@ class CodeCompiler {
   bool special_statement(const ModuleCall& call);
   void if_statement(const ModuleCall& call);
   void plain_node(const ModuleCall& call, NodeKind kind);
+  void operation_node(const ModuleCall& call, NodeKind kind);
   void node_if_children(const ModuleCall& call);
   uint32_t add_node_site(const ModuleCall& call, NodeKind kind);
   void begin_node(const ModuleCall& call, NodeKind kind);
@@ -137,6 +147,9 @@ class CodeCompiler {
   void repeated_argument(const ModuleCall& call, const ModuleShape& module, uint32_t site);
   BlockEntry* save_block(const ModuleCall& call, const Hiding& hiding);
   void children_call(const ModuleCall& call, bool is_child);
+  void plain_children_call(const ModuleCall& call, bool is_child);
+  void selection_of_children(const ModuleCall& call, bool is_child);
+  void unused_arguments(const ModuleCall& call);
 
   // loops.cpp
   void for_statement(const ModuleCall& call, NodeKind kind);

@@ -18,6 +18,7 @@ Compiler::KnownNames::KnownNames(NameTable& names)
       intersection_for(names.intern("intersection_for")),
       echo(names.intern("echo")),
       assert_(names.intern("assert")),
+      index(names.intern("index")),
       group(names.intern("group")),
       union_(names.intern("union")),
       difference(names.intern("difference")),
@@ -35,11 +36,15 @@ Compiler::Compiler(Program& program, DefinitionReader& definitions, Builtins bui
 void Compiler::prepare(Callable& callable) {
   if (callable.is_prepared) return;
   callable.is_prepared = true;
-  callable.parameters = ParameterList(callable.written_parameters, names());
+  callable.parameters = ParameterList(callable.written_parameters, names(), dialect());
+  const bool has_defaults_of_callee = dialect().has_arguments_first;
   for (const Expression* value : callable.parameters.defaults) {
     auto constant = value ? constant_value(*value) : Value::undef();
-    if (!constant.is_set()) callable.has_default_code = true;
-    callable.initial.push_back(constant.is_set() ? std::move(constant) : Value::undef());
+    if (!constant.is_set() && !has_defaults_of_callee) {
+      callable.has_default_code = true;
+      constant = Value::undef();
+    }
+    callable.initial.push_back(std::move(constant));
   }
   for (const Target& target : callable.parameters.targets)
     if (target.is_dynamic) callable.has_default_code = true;
@@ -49,7 +54,7 @@ ArgumentPlan Compiler::plan(Callable& callable, std::span<const Argument> argume
   prepare(callable);
   const size_t slots = callable.parameters.slot_names.size();
   ArgumentPlan plan = plan_arguments(arguments, callable.parameters,
-                                     callable.parameters.targets.size(), call, names());
+                                     callable.parameters.targets.size(), call, names(), dialect());
   if (callable.parameters.slot_names.size() != slots) callable.code = nullptr;
   return plan;
 }
@@ -67,7 +72,7 @@ ArgumentPlan Compiler::plan_module(ModuleEntry& module, std::span<const Argument
 ArgumentPlan Compiler::plan_builtin(const ModuleShape& module, std::span<const Argument> arguments,
                                     Place call) {
   ParameterList parameters(module.parameters, names());
-  return plan_arguments(arguments, parameters, module.positional, call, names());
+  return plan_arguments(arguments, parameters, module.positional, call, names(), dialect());
 }
 
 template <typename Definition, typename Entry>
@@ -134,8 +139,10 @@ FunctionEntry& Compiler::add_expression(const Expression& body) {
       FunctionEntry{{kNoName, body.place, {}, &nothing}, &body, nullptr});
 }
 
-BlockEntry& Compiler::add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope) {
-  return blocks_.emplace_back(BlockEntry{calls, &scope});
+BlockEntry& Compiler::add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope,
+                                const Scope* assigned) {
+  return blocks_.emplace_back(
+      BlockEntry{calls, &scope, assigned, dialect().has_plain_children ? kSelectionSlots : 0});
 }
 
 ScopeLayout& Compiler::add_scope(const ScopeLayout* parent, uint32_t unit, const Code* code,

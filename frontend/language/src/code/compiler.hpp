@@ -83,7 +83,8 @@ class Compiler {
   FunctionEntry& add_literal(const FunctionExpression& literal, const ScopeLayout& scope);
   /// Returns a function whose body is an expression that no scope surrounds.
   FunctionEntry& add_expression(const Expression& body);
-  BlockEntry& add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope);
+  BlockEntry& add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope,
+                        const Scope* assigned = nullptr);
   ScopeLayout& add_scope(const ScopeLayout* parent, uint32_t unit, const Code* code,
                          bool is_in_heap);
   /// Makes the functions and modules of a scope known.
@@ -91,6 +92,7 @@ class Compiler {
 
   const Program& program() const { return program_; }
   const NameTable& names() const { return program_.names; }
+  const Dialect& dialect() const { return program_.dialect; }
   const Builtins& builtins() const { return builtins_; }
   /// Returns whether the design reads $parent_modules.
   bool counts_modules() const { return names().find("$parent_modules") != kNoName; }
@@ -99,7 +101,7 @@ class Compiler {
   struct KnownNames {
     explicit KnownNames(NameTable& names);
     Name pi, is_undef, children, child, child_count, let, assign, for_, intersection_for, echo,
-        assert_, group, union_, difference, intersection;
+        assert_, index, group, union_, difference, intersection;
   };
   const KnownNames& known() const { return known_; }
 

@@ -96,6 +96,7 @@ void CodeCompiler::for_elements(std::span<const Argument> sources, const BodyExp
   } else if (scope.is_in_heap) {
     scope.declare(source.name);
     set_scope_size(open, scope);
+    if (compiler_.dialect().has_scopes_of_rounds) out_.emit(Op::kRenewScope, source.place, 0);
     store(source.name, source.place);
   } else {
     scope.add(has_name ? source.name : kNoName, out_.depth() - 1).is_set = true;
@@ -128,13 +129,16 @@ void CodeCompiler::for_c_elements(const ForCExpression& loop, uint32_t vector) {
     if (variable && !variable->is_set) variable->is_optional = true;
   }
   const uint32_t inner_mark = out_.depth();
-  if (has_dynamic) out_.emit(Op::kMarkTrail, loop.place, 1);
+  const bool forgets = has_dynamic && !compiler_.dialect().keeps_names_of_increments;
+  if (forgets) out_.emit(Op::kMarkTrail, loop.place, 1);
   const uint32_t start = out_.here();
   const uint32_t done = jump_if_false(*loop.condition);
   element_or_undef(loop.body, loop.place, vector);
   out_.emit(Op::kCountRound, loop.place, 0, rounds);
+  if (scope.is_in_heap && compiler_.dialect().has_scopes_of_rounds)
+    out_.emit(Op::kRenewScope, loop.place, 0);
   for_c_assignments(loop.increment, scope);
-  if (has_dynamic) out_.emit(Op::kUndoTrail, loop.place, 0, inner_mark);
+  if (forgets) out_.emit(Op::kUndoTrail, loop.place, 0, inner_mark);
   out_.emit(Op::kJump, loop.place, 0, start);
   out_.land(done);
   close_scope(loop.place);

@@ -128,15 +128,43 @@ void CodeCompiler::unary(const UnaryExpression& unary) {
 }
 
 // a + b + c is nested to the left, as deeply as it is long, so the left operands are followed by a
-// loop. The right operand of each operator is evaluated before the left one.
+// loop. The code of a right operand stands before that of the left one wherever they may be
+// evaluated in this order; operators find the left one on top.
 void CodeCompiler::binary_chain(const BinaryExpression& binary) {
   std::vector<const BinaryExpression*> chain{&binary};
   while (is_arithmetic(*chain.back()->left))
     chain.push_back(&as<BinaryExpression>(*chain.back()->left));
-  for (const BinaryExpression* link : chain) expression(*link->right);
-  expression(*chain.back()->left);
-  for (auto link = chain.rbegin(); link != chain.rend(); ++link)
-    out_.emit(op_of((*link)->op), (*link)->place, -1);
+  const Expression& first = *chain.back()->left;
+  const bool is_any_order = !compiler_.dialect().evaluates_left_first;
+  std::vector<bool> is_before(chain.size());
+  for (size_t i = 0; i < chain.size(); ++i) {
+    is_before[i] =
+        is_any_order || is_silent(*chain[i]->right) || (i + 1 == chain.size() && is_silent(first));
+    if (is_before[i]) expression(*chain[i]->right);
+  }
+  expression(first);
+  for (size_t i = chain.size(); i-- > 0;) {
+    if (!is_before[i]) {
+      expression(*chain[i]->right);
+      out_.emit(Op::kSwap, chain[i]->place, 0);
+    }
+    out_.emit(op_of(chain[i]->op), chain[i]->place, -1);
+  }
+}
+
+/// Returns whether evaluating an expression can neither say anything nor fail.
+bool CodeCompiler::is_silent(const Expression& value) const {
+  switch (value.kind) {
+    case ExpressionKind::kUndef:
+    case ExpressionKind::kBool:
+    case ExpressionKind::kNumber:
+    case ExpressionKind::kString:
+      return true;
+    case ExpressionKind::kVariable:
+      return is_known_variable(as<VariableExpression>(value).name);
+    default:
+      return false;
+  }
 }
 
 void CodeCompiler::logical(const BinaryExpression& binary) {
@@ -173,22 +201,36 @@ void CodeCompiler::ternary(const TernaryExpression& ternary) {
   out_.land(done);
 }
 
-// v[1][2].x is nested to the left, too. An index is evaluated before what it selects from.
+// v[1][2].x is nested to the left, too. The code of an index stands before that of what it selects
+// from wherever they may be evaluated in this order; the container has to be on top.
 void CodeCompiler::index_chain(const Expression& outermost) {
-  std::vector<const Expression*> chain;
+  struct Link {
+    const Expression* node;
+    bool is_before;  // its index has been evaluated
+  };
+  std::vector<Link> chain;
+  const bool is_any_order = !compiler_.dialect().evaluates_left_first;
   const Expression* container = &outermost;
   while (container->kind == ExpressionKind::kIndex || container->kind == ExpressionKind::kMember) {
-    chain.push_back(container);
     if (container->kind == ExpressionKind::kIndex) {
-      expression(*as<IndexExpression>(*container).index);
-      container = as<IndexExpression>(*container).container;
+      const auto& link = as<IndexExpression>(*container);
+      const bool is_before = is_any_order || is_silent(*link.index) || is_silent(*link.container);
+      chain.push_back({container, is_before});
+      if (is_before) expression(*link.index);
+      container = link.container;
     } else {
+      chain.push_back({container, true});
       container = as<MemberExpression>(*container).container;
     }
   }
   const uint32_t start = out_.here();
   expression(*container);
-  for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
+  for (auto position = chain.rbegin(); position != chain.rend(); ++position) {
+    const Expression* const* const link = &position->node;
+    if (!position->is_before) {
+      expression(*as<IndexExpression>(**link).index);
+      out_.emit(Op::kSwap, (*link)->place, 0);
+    }
     // Elements of a variable need no copy of it.
     const bool is_local = out_.here() == start + 1 && out_.at(start).op == Op::kLocal;
     const uint32_t slot = is_local ? out_.take_back().b : 0;

@@ -15,6 +15,7 @@ enum class Op : uint8_t {
   kFalse,     // push false
   kPop,       // pop
   kSlide,     // drop the b values below the top
+  kSwap,      // exchange the two topmost values
   kToBool,    // replace the top by its truth
   // Variables. A `try` pushes a variable that is set and then skips `flag` instructions.
   kLocal,            // push slot b
@@ -32,6 +33,7 @@ enum class Op : uint8_t {
   kEndDynamic,       // pop a value, undo the trail to the mark that is popped next, push the value
   kPushScope,        // open a heap scope of b variables, all unset
   kPopScope,         // close it
+  kRenewScope,       // go on with a copy of it, if something else refers to it
   // Operators
   kNegate,
   kNot,
@@ -79,14 +81,15 @@ enum class Op : uint8_t {
   kNextRound,        // push the next element, or go to b; the loop's three values begin in slot a
   kCountRound,       // slot b counts the rounds of a C-style for
   // Calls
-  kEnterUnit,         // make the top level of unit b ready for a call
-  kBeginCall,         // push the declared parameters of calls[b], with their defaults
-  kCall,              // call the function of calls[b], whose parameters are on top
-  kCallBuiltin,       // call builtin function b with the a values on top; a flag gives up slot
-                      // flag - 1, which is read no more, before that
-  kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it
-  kKeepLazy,          // pop a value and add it to the arguments of lazy_calls[b]
-  kWarnCount,         // say that builtin function b got a wrong number of arguments; push undef
+  kEnterUnit,    // make the top level of unit b ready for a call
+  kBeginCall,    // push the declared parameters of calls[b], with their defaults
+  kCall,         // call the function of calls[b], whose parameters are on top; flag: in place of
+                 // the running function
+  kCallBuiltin,  // call builtin function b with the a values on top; a flag gives up slot
+                 // flag - 1, which is read no more, before that
+  kNextLazy,     // go to the argument that lazy_calls[b] evaluates next, or call it
+  kKeepLazy,     // pop a value and add it to the arguments of lazy_calls[b]
+  kWarnCount,    // say that builtin function b got a wrong number of arguments; push undef
   kUnknownFunction,   // warn of the name b; push undef
   kArgumentWarnings,  // say the warnings of plans[b]; once if flag
   kIfFunction,        // go to b if the top is a function value
@@ -121,10 +124,12 @@ enum class Op : uint8_t {
   kSelectChildren,   // check the selection of children on top; push how many are done, 0, and
                      // whether they go into a group, which is begun; flag: of child(). Goes to b,
                      // and drops the selection, if there is nothing to run
-  kNextChild,        // run the next child of the selection in slot a; go to b after the last
-  kEndSelection,     // end the group, if there is one; drop what kSelectChildren pushed
-  kEndChild,         // a statement of a block has ended
-  kEndUnit,          // the assignments of a top level have been evaluated
+  kRunChildren,   // pop which children are meant; begin the group node_sites[a] and run them in it,
+                  // or go to b if there is nothing to run; flag: of child()
+  kNextChild,     // run the next child of the selection in slot a; go to b after the last
+  kEndSelection,  // end the group, if there is one; drop what kSelectChildren pushed
+  kEndChild,      // a statement of a block has ended
+  kEndUnit,       // the assignments of a top level have been evaluated
 };
 
 /// Flags of kMember and kMemberLocal: the element of a vector that the name means, if there is one.

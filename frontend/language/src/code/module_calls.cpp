@@ -8,6 +8,13 @@ namespace language {
 BlockEntry* CodeCompiler::save_block(const ModuleCall& call, const Hiding& hiding) {
   const Scope& scope = *call.children;
   if (scope.assignments.empty() && scope.calls.empty()) return nullptr;
+  if (compiler_.dialect().has_blocks_at_children) {
+    const bool has_assignments = !scope.assignments.empty();
+    BlockEntry& block =
+        compiler_.add_block(scope.calls, *scope_, has_assignments ? &scope : nullptr);
+    out_.emit(Op::kSaveBlock, call.place, 0);
+    return &block;
+  }
   if (!scope.assignments.empty()) {
     ScopeLayout& layout = open_scope(true, call.place);
     const uint32_t open = out_.here() - 1;
@@ -26,7 +33,7 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   const ArgumentPlan plan = compiler_.plan_module(module, call.arguments, call.place);
   const uint32_t unit = module.scope->unit;
   const uint32_t start = out_.depth();
-  const bool has_mark = binds_dynamic(module, call.arguments) || assigns_dynamic(*call.children) ||
+  const bool has_mark = binds_dynamic(module, plan) || assigns_dynamic(*call.children) ||
                         (found.is_in_other_unit && compiler_.unit(unit).binds_dynamic) ||
                         compiler_.counts_modules();
   if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
@@ -47,8 +54,7 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   out_.emit(Op::kNameModule, call.place, 0, number);
   const uint32_t base = out_.depth();
   begin_call(module.parameters, call.place, number);
-  warn_of_arguments(plan, call.place, false);
-  arguments(plan, call.arguments, base);
+  pass_arguments(plan, call.arguments, base, call.place);
   out_.emit(Op::kCallModule, call.place, -static_cast<int>(site.slots), number);
   if (scope_ != outer) close_scope(call.place);
   if (has_mark) out_.emit(Op::kUndoTrail, call.place, 0, start);
@@ -58,8 +64,11 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
 void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& module) {
   const uint32_t start = out_.depth();
   const Scope& children = *call.children;
-  const bool takes_children = module.takes_children && !(children.calls.empty());
-  const bool has_block = module.takes_children && !children.assignments.empty();
+  const bool has_late_block = compiler_.dialect().has_blocks_at_children;
+  const bool has_assignments = module.takes_children && !children.assignments.empty();
+  const bool takes_children =
+      module.takes_children && (!children.calls.empty() || (has_late_block && has_assignments));
+  const bool has_block = has_assignments && !has_late_block;
   const bool has_mark =
       names_dynamic(call.arguments, compiler_.names()) || (has_block && assigns_dynamic(children));
   if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
@@ -68,8 +77,9 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   site.module = module.index;
   site.parameters = static_cast<uint32_t>(module.parameters.size());
   site.successor = module.successor;
-  if (module.refuses_children && !(children.calls.empty() && children.assignments.empty()))
-    out_.emit(Op::kRefuseChildren, call.place, 0, number);
+  const bool is_refused = !children.calls.empty() || (!children.assignments.empty() &&
+                                                      compiler_.dialect().refuses_assignments);
+  if (module.refuses_children && is_refused) out_.emit(Op::kRefuseChildren, call.place, 0, number);
   if (!module.successor.empty()) out_.emit(Op::kSuccessor, call.place, 0, number);
   builtin_arguments(call, module);
   ScopeLayout* const outer = scope_;
@@ -86,7 +96,11 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   const uint32_t made =
       out_.emit(Op::kMakeNode, call.place, -popped, 0, number, takes_children ? 1 : 0);
   if (takes_children) {
-    statements(children.calls);
+    if (has_late_block) {
+      block(children);
+    } else {
+      statements(children.calls);
+    }
     end_node(call);
   }
   out_.land(made);
@@ -97,22 +111,45 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
 
 void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& module) {
   const ArgumentPlan plan = compiler_.plan_builtin(module, call.arguments, call.place);
-  warn_of_arguments(plan, call.place, false);
+  const bool is_first = compiler_.dialect().has_arguments_first;
+  if (!is_first) warn_of_arguments(plan, call.place, false);
+  std::vector<std::pair<Name, uint32_t>> late;  // `$` names, and where their values wait
+  const auto waits = [&](const ArgumentPlan::Step& step) {
+    return is_first && step.target.is_dynamic && !step.is_dropped;
+  };
+  for (const ArgumentPlan::Step& step : plan.steps) {
+    if (!waits(step)) continue;
+    late.emplace_back(step.target.name, out_.depth());
+    out_.constant(Value::unset(), call.place);
+  }
   const uint32_t base = out_.depth();
   const auto count = static_cast<uint32_t>(module.parameters.size());
   for (uint32_t parameter = 0; parameter < count; ++parameter)
     out_.constant(Value::unset(), call.place);
+  auto next_late = late.begin();
   for (const ArgumentPlan::Step& step : plan.steps) {
     const Argument& argument = call.arguments[step.argument];
     expression(*argument.value);
-    if (step.target.is_dynamic) {
+    if (waits(step)) {
+      out_.emit(Op::kStoreLocal, argument.place, -1, (next_late++)->second);
+    } else if (step.target.is_dynamic) {
       out_.emit(Op::kBindDynamic, argument.place, -1, step.target.name);
-    } else if (step.target.slot < count) {
+    } else if (!step.is_dropped && step.target.slot < count) {
       out_.emit(Op::kStoreLocal, argument.place, -1, base + step.target.slot);
     } else {
       out_.emit(Op::kPop, argument.place, -1);
     }
   }
+  if (is_first) warn_of_arguments(plan, call.place, false);
+  for (const auto& [name, slot] : late) {
+    out_.emit(Op::kLocal, call.place, 1, slot);
+    out_.emit(Op::kBindDynamic, call.place, -1, name);
+  }
+}
+
+/// Evaluates arguments that mean nothing to an operation, where it is a module like others.
+void CodeCompiler::unused_arguments(const ModuleCall& call) {
+  if (compiler_.dialect().has_plain_children) builtin_arguments(call, ModuleShape{});
 }
 
 /// Pushes the first argument, evaluated once more, if the module wants it; else an unset value.
@@ -130,6 +167,30 @@ void CodeCompiler::repeated_argument(const ModuleCall& call, const ModuleShape& 
 }
 
 void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
+  return compiler_.dialect().has_plain_children ? plain_children_call(call, is_child)
+                                                : selection_of_children(call, is_child);
+}
+
+void CodeCompiler::plain_children_call(const ModuleCall& call, bool is_child) {
+  if (is_child) out_.emit(Op::kDeprecatedChild, call.place, 0);
+  const uint32_t outside = out_.emit(Op::kUnlessInModule, call.place, 0);
+  const uint32_t start = out_.depth();
+  const bool has_mark = names_dynamic(call.arguments, compiler_.names());
+  if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
+  ModuleShape shape{};
+  shape.parameters = {compiler_.known().index};
+  shape.positional = 1;
+  builtin_arguments(call, shape);
+  const uint32_t none = out_.emit(Op::kRunChildren, call.place, -1, 0,
+                                  add_node_site(call, NodeKind::kGroup), is_child ? 1 : 0);
+  end_node(call);
+  out_.land(none);
+  if (has_mark) out_.emit(Op::kUndoTrail, call.place, 0, start);
+  drop_to(start, call.place);
+  out_.land(outside);
+}
+
+void CodeCompiler::selection_of_children(const ModuleCall& call, bool is_child) {
   if (is_child) out_.emit(Op::kDeprecatedChild, call.place, 0);
   // child() looks at its argument anywhere, children() within modules only.
   const uint32_t outside = is_child ? 0 : out_.emit(Op::kUnlessInModule, call.place, 0);

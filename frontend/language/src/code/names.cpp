@@ -50,6 +50,19 @@ void CodeCompiler::variable_or(Name name, Place place, Op otherwise) {
     out_.at(position).flag = static_cast<uint16_t>(out_.here() - position - 1);
 }
 
+/// Returns whether reading a variable finds it in the frame for certain.
+bool CodeCompiler::is_known_variable(Name name) const {
+  if (is_dynamic_name(name, compiler_.names())) return false;
+  for (const ScopeLayout* scope = scope_; scope; scope = scope->parent) {
+    const ScopeVariable* const found = scope->find(name);
+    if (!found) continue;
+    const bool is_own = scope->code == &out_.code();
+    if (is_own && !found->is_set && !found->is_optional) continue;
+    return is_surely_set(*found, is_own, finds_all_set_);
+  }
+  return false;
+}
+
 void CodeCompiler::note_top_variable(const ScopeLayout& scope, uint32_t slot) {
   if (scope.unit != 0) return;
   std::vector<uint32_t>& known = out_.code().top_variables;

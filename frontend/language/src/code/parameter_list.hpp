@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/dialect.hpp"
 #include "base/name_list.hpp"
 #include "base/name_table.hpp"
 #include "syntax/syntax.hpp"
@@ -27,13 +28,17 @@ struct ParameterList {
   uint32_t declared_slots = 0;
 
   ParameterList() = default;
-  ParameterList(std::span<const Parameter> parameters, const NameTable& names);
+  ParameterList(std::span<const Parameter> parameters, const NameTable& names,
+                const Dialect& dialect);
   /// Parameters of a builtin module, which have no defaults.
   ParameterList(std::span<const Name> parameters, const NameTable& names);
   /// Returns the slot of a name that a call passes, which gets one if it has none. `$` names have
-  /// no slot.
+  /// no slot unless the callee binds them.
   Target target_of(Name name, const NameTable& names);
   bool declares(Name name) const;
+
+ private:
+  bool binds_dynamic_ = false;  // whether the callee does
 };
 
 /// Returns whether a name is looked up dynamically: `$children` is the one `$` name that is not.
@@ -53,14 +58,16 @@ struct ArgumentPlan {
   struct Step {
     uint32_t argument;
     Target target;
+    bool is_dropped = false;  // it is evaluated, and counts for nothing
   };
-  std::vector<Step> steps;                // in the order of evaluation
-  std::vector<ArgumentWarning> warnings;  // said before it
+  std::vector<Step> steps;  // in the order of evaluation
+  std::vector<ArgumentWarning> warnings;
 };
 
 /// Resolves arguments as OpenSCAD does (LANGUAGE.md, "Scopes and calls"); `call` is the place of
 /// the call.
 ArgumentPlan plan_arguments(std::span<const Argument> arguments, ParameterList& parameters,
-                            size_t positional, Place call, const NameTable& names);
+                            size_t positional, Place call, const NameTable& names,
+                            const Dialect& dialect);
 
 }  // namespace language

@@ -9,14 +9,34 @@ namespace language {
 bool CodeCompiler::compile_unit(const Scope& scope) {
   for (const Assignment& assignment : scope.assignments)
     if (!is_dynamic_name(assignment.name, compiler_.names())) scope_->declare(assignment.name);
+  const bool has_dynamic = assigns_dynamic(scope);
+  const bool forgets =
+      has_dynamic && scope_->unit != 0 && compiler_.dialect().forgets_names_of_units;
+  const uint32_t mark = out_.depth();
+  if (forgets) out_.emit(Op::kMarkTrail, {}, 1);
   assign(scope, nullptr, {});
+  if (forgets) {
+    out_.emit(Op::kUndoTrail, {}, 0, mark);
+    out_.emit(Op::kPop, {}, -1);
+  }
   out_.emit(Op::kEndUnit, {}, 0);
-  return assigns_dynamic(scope);
+  return has_dynamic && !forgets;
 }
 
 void CodeCompiler::compile_block(BlockEntry& block) {
   finds_all_set_ = true;
   auto& entries = out_.code().entries;
+  out_.set_depth(block.slots);
+  if (block.assigned) {
+    const Place place = block.assigned->assignments.front().place;
+    ScopeLayout& layout = open_scope(true, place);
+    const uint32_t open = out_.here() - 1;
+    for (const Assignment& assignment : block.assigned->assignments)
+      if (!is_dynamic_name(assignment.name, compiler_.names())) layout.declare(assignment.name);
+    set_scope_size(open, layout);
+    assign(*block.assigned, nullptr, {});
+  }
+  if (block.slots > 0) out_.emit(Op::kEndChild, {}, 0);  // goes to the first that is selected
   for (const ModuleCall& call : block.calls) {
     entries.push_back(out_.here());
     statement(call);
@@ -33,6 +53,7 @@ void CodeCompiler::compile_module(ModuleEntry& module) {
   const auto slots = static_cast<uint32_t>(parameters.slot_names.size());
   out_.code().slots = slots;
   out_.set_depth(slots);
+  defaults_of_callee(module);
   ScopeLayout& scope = open_scope(true, module.place);
   const uint32_t open = out_.here() - 1;
   out_.emit(Op::kChildCount, module.place, 1);
@@ -52,7 +73,9 @@ void CodeCompiler::compile_module(ModuleEntry& module) {
     if (!is_dynamic_name(assignment.name, compiler_.names())) scope.declare(assignment.name);
   compiler_.define(scope, *module.body);
   set_scope_size(open, scope);
+  bind_parameters(module);
   assign(*module.body, &module, {});
+  out_.code().statements = out_.here();
   statements(module.body->calls);
   out_.emit(Op::kReturnModule, module.place, 0);
 }
@@ -73,7 +96,11 @@ bool Hiding::hides(Name name) const {
 void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module, const Hiding& hiding) {
   for (const Assignment& assignment : scope.assignments) {
     if (module) parameter_warning(assignment, *module);
+    const uint32_t region = begin_region();
     expression(*assignment.value);
+    if (compiler_.dialect().has_full_traces)
+      out_.code().regions.push_back({region, out_.here(), compiler_.names().text(assignment.name),
+                                     nullptr, assignment.place, true});
     const bool is_hidden =
         is_dynamic_name(assignment.name, compiler_.names()) && hiding.hides(assignment.name);
     if (is_hidden) {
@@ -154,10 +181,10 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
     node_if_children(call);
   } else if (name == known.group || name == known.union_ || name == known.difference ||
              name == known.intersection) {
-    plain_node(call, name == known.union_         ? NodeKind::kUnion
-                     : name == known.difference   ? NodeKind::kDifference
-                     : name == known.intersection ? NodeKind::kIntersection
-                                                  : NodeKind::kGroup);
+    operation_node(call, name == known.union_         ? NodeKind::kUnion
+                         : name == known.difference   ? NodeKind::kDifference
+                         : name == known.intersection ? NodeKind::kIntersection
+                                                      : NodeKind::kGroup);
   } else {
     return false;
   }
@@ -197,6 +224,16 @@ void CodeCompiler::begin_node(const ModuleCall& call, NodeKind kind) {
 
 void CodeCompiler::end_node(const ModuleCall& call, bool drop_if_empty) {
   out_.emit(Op::kEndNode, call.place, 0, 0, 0, drop_if_empty ? 1 : 0);
+}
+
+void CodeCompiler::operation_node(const ModuleCall& call, NodeKind kind) {
+  const uint32_t start = out_.depth();
+  const bool has_mark = names_dynamic(call.arguments, compiler_.names());
+  if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
+  unused_arguments(call);
+  plain_node(call, kind);
+  if (has_mark) out_.emit(Op::kUndoTrail, call.place, 0, start);
+  drop_to(start, call.place);
 }
 
 void CodeCompiler::plain_node(const ModuleCall& call, NodeKind kind) {

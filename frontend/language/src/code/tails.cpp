@@ -18,8 +18,11 @@ void CodeCompiler::compile_function(FunctionEntry& function) {
   const auto& names = function.parameters.slot_names;
   out_.code().slots = static_cast<uint32_t>(names.size());
   out_.set_depth(out_.code().slots);
+  const uint32_t start = out_.here();
+  defaults_of_callee(function);
   parameter_scope_ = &open_scope(contains_literal(*function.body), function.place);
-  body_start_ = out_.here();
+  const uint32_t open = out_.here() - 1;
+  body_start_ = compiler_.dialect().has_all_tail_calls ? start : out_.here();
   for (uint32_t slot = 0; slot < names.size(); ++slot) {
     ScopeVariable& variable = parameter_scope_->add(names[slot], slot);
     variable.is_set = variable.is_always_set = slot < function.parameters.declared_slots;
@@ -28,8 +31,36 @@ void CodeCompiler::compile_function(FunctionEntry& function) {
     out_.emit(Op::kLocal, function.place, 1, slot);
     out_.emit(Op::kStoreScoped, function.place, -1, slot, 0);
   }
-  if (parameter_scope_->is_in_heap) set_scope_size(body_start_ - 1, *parameter_scope_);
+  if (parameter_scope_->is_in_heap) set_scope_size(open, *parameter_scope_);
+  bind_parameters(function);
   tail(*function.body);
+}
+
+/// Lets the callee itself evaluate the defaults of what is not given, outside of its own scope.
+void CodeCompiler::defaults_of_callee(const Callable& callable) {
+  if (!compiler_.dialect().has_arguments_first) return;
+  const ParameterList& parameters = callable.parameters;
+  for (uint32_t slot = 0; slot < parameters.declared_slots; ++slot) {
+    const Expression* const value = parameters.defaults[slot];
+    if (!value || constant_value(*value).is_set()) continue;
+    const uint32_t given = out_.emit(Op::kTryLocal, callable.place, 0, slot);
+    expression(*value);
+    out_.at(given).flag = static_cast<uint16_t>(out_.here() - given - 1);
+    out_.emit(Op::kStoreLocal, callable.place, -1, slot);
+  }
+}
+
+/// Lets the callee bind the `$` names among its parameters, and those that a call passes it.
+void CodeCompiler::bind_parameters(const Callable& callable) {
+  const NameList& names = callable.parameters.slot_names;
+  for (uint32_t slot = 0; slot < names.size(); ++slot) {
+    if (!is_dynamic_name(names[slot], compiler_.names())) continue;
+    const uint32_t given = out_.emit(Op::kTryLocal, callable.place, 0, slot, 0, 1);
+    const uint32_t none = out_.emit(Op::kJump, callable.place, 1);
+    out_.emit(Op::kBindDynamic, callable.place, -1, names[slot]);
+    out_.land(none);
+    static_cast<void>(given);
+  }
 }
 
 void CodeCompiler::compile_defaults(Callable& callable, bool is_module) {
@@ -101,6 +132,63 @@ void CodeCompiler::tail(const Expression& body) {
 }
 
 void CodeCompiler::tail_call(const CallExpression& call) {
+  return compiler_.dialect().has_all_tail_calls ? any_tail_call(call) : named_tail_call(call);
+}
+
+void CodeCompiler::any_tail_call(const CallExpression& call) {
+  const bool is_named = call.callee->kind == ExpressionKind::kVariable;
+  const Name name = is_named ? as<VariableExpression>(*call.callee).name : kNoName;
+  const uint32_t region = begin_region();
+  if (!is_named || compiler_.names().is_dynamic(name) || may_be_variable(name)) {
+    dynamic_call(call, true);
+  } else if (const auto found = compiler_.find_function(*scope_, name); found.entry == function_) {
+    return tail_jump(call);
+  } else if (found.entry) {
+    static_call(call, found, true);
+  } else {
+    named_call(call, name);
+  }
+  end_region(region, name, call.callee, call.place);
+  out_.emit(Op::kReturn, call.place, -1);
+}
+
+/// Starts the frame of the function that is compiled anew, as a call of it would begin.
+void CodeCompiler::tail_jump(const CallExpression& call) {
+  const uint32_t depth = out_.depth();
+  const ArgumentPlan plan = compiler_.plan(*function_, call.arguments, call.place);
+  std::vector<uint32_t> slots;  // where the values on the stack belong
+  std::vector<CodeRange> values;
+  for (const ArgumentPlan::Step& step : plan.steps) {
+    const Argument& argument = call.arguments[step.argument];
+    const uint32_t begin = out_.here();
+    expression(*argument.value);
+    values.push_back({begin, out_.here()});
+    if (step.is_dropped) {
+      out_.emit(Op::kPop, argument.place, -1);
+    } else {
+      slots.push_back(step.target.slot);
+    }
+  }
+  warn_of_arguments(plan, call.place, false);
+  for (const CodeRange& value : values) {
+    const std::optional<uint32_t> slot = local_of_call(value);
+    if (slot && !is_read(*slot, {value.end, out_.here()})) give_up(*slot, value);
+  }
+  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
+    out_.emit(Op::kStoreLocal, call.place, -1, *slot);
+  for (uint32_t slot = 0; slot < function_->parameters.slot_names.size(); ++slot) {
+    if (std::find(slots.begin(), slots.end(), slot) != slots.end()) continue;
+    const bool is_declared = slot < function_->initial.size();
+    out_.constant(is_declared ? function_->initial[slot] : Value::unset(), call.place);
+    out_.emit(Op::kStoreLocal, call.place, -1, slot);
+  }
+  for (const ScopeLayout* scope = scope_; scope != parameter_scope_->parent; scope = scope->parent)
+    if (scope->is_in_heap) out_.emit(Op::kPopScope, call.place, 0);
+  out_.emit(Op::kTailJump, call.place, 0, body_start_, out_.code().slots);
+  out_.set_depth(depth);
+}
+
+void CodeCompiler::named_tail_call(const CallExpression& call) {
   const bool is_named = call.callee->kind == ExpressionKind::kVariable;
   const Name name = is_named ? as<VariableExpression>(*call.callee).name : kNoName;
   const bool may_loop = is_named && (function_->literal || name == function_->name);

@@ -1,6 +1,9 @@
 #include "evaluation/call_stack.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "values/value_text.hpp"
 
 namespace language {
 namespace {
@@ -42,6 +45,21 @@ void CallStack::push(const Code& code, uint32_t base, HeapScope* scope, FrameKin
   enter(code, 0, base, scope);
 }
 
+void CallStack::replace(const Code& code, uint32_t slots, HeapScope* scope) {
+  values.reserve(std::max(base_ + code.deepest + 1, values.size()));
+  const uint32_t first = values.size() - slots;
+  for (uint32_t slot = 0; slot < slots; ++slot)
+    values[base_ + slot] = std::move(values[first + slot]);
+  values.drop_to(base_ + slots);
+  HeapScope* const before = scope_;
+  Frame& frame = frames_.back();
+  frame.code = &code;
+  frame.scope = scope;
+  recorder.note_code(code);
+  enter(code, 0, base_, scope);
+  HeapScopes::release(before);
+}
+
 void CallStack::pop() {
   HeapScopes::release(scope_);
   frames_.pop_back();
@@ -77,6 +95,15 @@ void CallStack::pop_scope() {
   leave_scope(scope);
 }
 
+void CallStack::renew_scope() {
+  HeapScope* const before = scope_;
+  if (before->references == 1) return;
+  scope_ = scopes.make(HeapScopes::acquire(before->parent), before->size);
+  for (uint32_t slot = 0; slot < before->size; ++slot)
+    scope_->values()[slot] = before->values()[slot];
+  leave_scope(before);
+}
+
 std::string CallStack::text_of(const Expression& callee) const {
   std::string text = "(";
   append_expression_text(text, callee, program_.names);
@@ -103,10 +130,28 @@ void CallStack::say_traces() {
       if (++count > kTraceLimit) return;
       const std::string name =
           region.callee && region.name.empty() ? text_of(*region.callee) : std::string(region.name);
-      environment_.messages.say(MessageGroup::kTrace, "called by '" + name + "'", region.place,
-                                PathBase::kUnit);
+      const std::string text =
+          region.is_assignment ? "assignment to \"" + name + "\"" : "called by '" + name + "'";
+      environment_.messages.say(MessageGroup::kTrace, text, region.place, PathBase::kUnit);
     }
+    if (!program_.dialect.has_full_traces || frame->kind != FrameKind::kModule ||
+        frame->next <= frame->code->statements)
+      continue;
+    if (++count > kTraceLimit) return;
+    environment_.messages.say(MessageGroup::kTrace, "call of '" + call_text(*frame) + "'",
+                              frame->call, PathBase::kUnit);
   }
+}
+
+std::string CallStack::call_text(const Frame& frame) {
+  std::string text = text_of(frame.module->name) + "(";
+  const ParameterList& parameters = frame.module->parameters;
+  for (uint32_t slot = 0; slot < parameters.declared_slots; ++slot) {
+    if (slot > 0) text += ", ";
+    text += text_of(parameters.slot_names[slot]) + " = ";
+    append_echo_text(text, values[frame.base + slot]);
+  }
+  return text + ")";
 }
 
 void CallStack::set_unit(uint32_t unit) {

@@ -25,10 +25,11 @@ enum class FrameKind : uint8_t {
   kDefaults,         // the defaults of a call, which are left in its slots
   kDynamicDefaults,  // … or packed into a vector, in the slot below
   kModule,
-  kBlock,     // all children of a block
-  kChild,     // one of them
-  kUnit,      // the assignments of a used file's top level
-  kMainUnit,  // … of the main file's
+  kBlock,      // all children of a block
+  kChild,      // one of them
+  kSelection,  // some of them, which its first slots tell
+  kUnit,       // the assignments of a used file's top level
+  kMainUnit,   // … of the main file's
 };
 
 constexpr uint32_t kNoActivation = 0xFFFFFFFFu;
@@ -49,7 +50,8 @@ struct Frame {
   uint32_t rounds = 0;  // of tail calls
   const FunctionEntry* function = nullptr;
   Name called_as = kNoName;  // of a function value: the name in its call
-  Place call{};              // of a function value
+  Place call{};              // of a function value, or a user module
+  const ModuleEntry* module = nullptr;
 };
 
 /// Owns what calls hold, innermost on top: frames, values, scopes, `$` names, and the records of
@@ -72,6 +74,9 @@ class CallStack {
   void push(const Code& code, HeapScope* scope, FrameKind kind) {
     push(code, values.size(), scope, kind);
   }
+  /// Lets code take the place of the innermost call's, with the values on top as its first slots.
+  /// Takes over a reference to `scope`.
+  void replace(const Code& code, uint32_t slots, HeapScope* scope);
   /// Ends the innermost call. Its values and `$` names stay.
   void pop();
   /// Ends the innermost call with its values and `$` names.
@@ -102,6 +107,8 @@ class CallStack {
   HeapScope* scope_at(uint32_t number) const;
   void push_scope(uint32_t size) { scope_ = scopes.make(scope_, size); }
   void pop_scope();
+  /// Goes on with a copy of the innermost scope, if something else refers to it.
+  void renew_scope();
 
   /// Keeps the scope of a used file for the call of one of its functions or modules. Takes over a
   /// reference.
@@ -142,6 +149,7 @@ class CallStack {
 
   bool takes_too_much() const;
   void enter(const Code& code, uint32_t next, uint32_t base, HeapScope* scope);
+  std::string call_text(const Frame& frame);
   void set_unit(uint32_t unit);
 
   const Program& program_;

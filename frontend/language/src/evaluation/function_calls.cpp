@@ -45,13 +45,19 @@ uint32_t FunctionCalls::push_parameters(const Callable& callable) {
   return base;
 }
 
-void FunctionCalls::call(const CallSite& site) {
+void FunctionCalls::call(const CallSite& site, bool is_tail) {
   FunctionEntry& function = *site.function;
-  if (stack_.nests_too_deeply())
+  if (!is_tail && stack_.nests_too_deeply())
     stack_.fail_recursion("function", stack_.text_of(function.name), stack_.place());
   HeapScope* const scope = stack_.take_scope_around(site.is_in_unit, site.scope);
   const Code& code = compiler_.code_of(function);
-  stack_.push(code, stack_.values.size() - site.slots, scope, FrameKind::kFunction);
+  if (is_tail) {
+    check_rounds();
+    stack_.replace(code, site.slots, scope);
+    stack_.frame().called_as = kNoName;
+  } else {
+    stack_.push(code, stack_.values.size() - site.slots, scope, FrameKind::kFunction);
+  }
   stack_.frame().function = &function;
   for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.values.push(Value::unset());
 }
@@ -62,14 +68,19 @@ void FunctionCalls::return_value() {
   stack_.values.push(std::move(value));
 }
 
+/// Counts a tail call. Fails after too many.
+void FunctionCalls::check_rounds() {
+  if (!stack_.loops_too_long()) return;
+  const Frame& frame = stack_.frame();
+  const bool is_named = frame.called_as == kNoName && frame.function->name != kNoName;
+  const Name name = is_named ? frame.function->name : frame.called_as;
+  stack_.jump(0);  // a tail call is no call in the traces
+  stack_.fail_recursion("function", name == kNoName ? "" : stack_.text_of(name),
+                        is_named ? frame.function->place : frame.call);
+}
+
 void FunctionCalls::tail_jump(uint32_t slots, uint32_t target) {
-  if (stack_.loops_too_long()) {
-    const Frame& frame = stack_.frame();
-    const bool is_named = frame.called_as == kNoName;
-    stack_.fail_recursion("function",
-                          stack_.text_of(is_named ? frame.function->name : frame.called_as),
-                          is_named ? frame.function->place : frame.call);
-  }
+  check_rounds();
   stack_.values.drop_to(stack_.base() + slots);
   stack_.jump(target);
 }
@@ -158,6 +169,7 @@ bool DynamicCalls::refuse_callee(const DynamicCall& site) {
   };
   if (callee.is_function()) {
     if (site.name == kNoName || !is_dynamic_name(site.name, compiler_.names())) return false;
+    if (compiler_.dialect().calls_dynamic_names) return false;
     return refuse("Can't call function on dynamically scoped variable", PathBase::kUnit);
   }
   if (site.name == kNoName)
@@ -199,7 +211,8 @@ void DynamicCalls::next_argument(const DynamicCall& site) {
   uint32_t argument = done;
   if (FunctionEntry* const function = function_of(site)) {
     const ArgumentPlan& plan = plan_of(site, *function);
-    if (done == 0) {
+    const bool warns_last = compiler_.dialect().has_arguments_first;
+    if (done == (warns_last ? plan.steps.size() : 0)) {
       for (const ArgumentWarning& warning : plan.warnings)
         stack_.messages().warn(warning.text, warning.place, PathBase::kUnit);
     }
@@ -232,7 +245,7 @@ void DynamicCalls::call_builtin(const DynamicCall& site) {
 
 void DynamicCalls::call_function(const DynamicCall& site, FunctionEntry& function) {
   const Place call = stack_.place();
-  if (stack_.nests_too_deeply()) {
+  if (!site.is_tail && stack_.nests_too_deeply()) {
     stack_.fail_recursion(
         "function", site.name == kNoName ? stack_.text_of(*site.callee) : stack_.text_of(site.name),
         call);
@@ -252,19 +265,24 @@ void DynamicCalls::call_function(const DynamicCall& site, FunctionEntry& functio
   }
   parameters_.resize(code.slots, Value::unset());
   for (const ArgumentPlan::Step& step : plan_of(site, function).steps) {
-    if (!step.target.is_dynamic)
+    if (!step.target.is_dynamic && !step.is_dropped)
       parameters_[step.target.slot] = std::move(values[base + kArguments + step.argument]);
   }
   const auto mark = static_cast<uint32_t>(values[base + kMark].number());
   values.drop_to(base);
   values.reserve(base + static_cast<uint32_t>(parameters_.size()));
   for (Value& parameter : parameters_) values.push(std::move(parameter));
-  stack_.push(code, base, scope, FrameKind::kFunction);
+  if (site.is_tail) {
+    functions_.check_rounds();
+    stack_.replace(code, static_cast<uint32_t>(parameters_.size()), scope);
+  } else {
+    stack_.push(code, base, scope, FrameKind::kFunction);
+    stack_.frame().trail = mark;
+  }
   Frame& frame = stack_.frame();
   frame.function = &function;
-  frame.trail = mark;
   frame.call = call;
-  if (is_closure) frame.called_as = site.name;
+  frame.called_as = is_closure ? site.name : kNoName;
 }
 
 }  // namespace language

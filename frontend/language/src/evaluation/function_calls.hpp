@@ -23,8 +23,9 @@ class FunctionCalls {
   void return_defaults();
   /// Pushes the declared parameters with their constant defaults. Returns the first one's slot.
   uint32_t push_parameters(const Callable& callable);
-  void call(const CallSite& site);
+  void call(const CallSite& site, bool is_tail);
   void return_value();
+  void check_rounds();
   void tail_jump(uint32_t slots, uint32_t target);
   /// Calls a builtin function with the topmost values.
   void call_builtin(uint32_t index, uint32_t count);

@@ -103,6 +103,9 @@ bool Machine::execute(const Instruction& step) {
       stack_.values.push(std::move(value));
       break;
     }
+    case Op::kSwap:
+      std::swap(stack_.values.top(), stack_.values.below(1));
+      break;
     case Op::kDynamic:
       values_.push_dynamic(step.b, false);
       break;
@@ -135,6 +138,9 @@ bool Machine::execute(const Instruction& step) {
       break;
     case Op::kPopScope:
       stack_.pop_scope();
+      break;
+    case Op::kRenewScope:
+      stack_.renew_scope();
       break;
     case Op::kNegate:
       values_.unary(operators::negate);
@@ -231,7 +237,7 @@ bool Machine::execute(const Instruction& step) {
       functions_.begin(code.calls[step.b]);
       break;
     case Op::kCall:
-      functions_.call(code.calls[step.b]);
+      functions_.call(code.calls[step.b], step.flag);
       break;
     case Op::kCallBuiltin:
       if (step.flag != 0) stack_.slot(step.flag - 1) = Value::undef();
@@ -337,6 +343,9 @@ bool Machine::execute(const Instruction& step) {
       break;
     case Op::kSelectChildren:
       if (!children_.select(code.node_sites[step.a], step.flag)) stack_.jump(step.b);
+      break;
+    case Op::kRunChildren:
+      children_.run_selection(code.node_sites[step.a], step.b, step.flag);
       break;
     case Op::kNextChild:
       children_.run_next(step.a, step.b);

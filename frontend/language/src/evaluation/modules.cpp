@@ -1,5 +1,6 @@
 #include "evaluation/modules.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -111,6 +112,8 @@ void ModuleCalls::call(const CallSite& site) {
   const Code& code = compiler_.code_of(module);
   stack_.push(code, base, scope, FrameKind::kModule,
               static_cast<uint32_t>(activations_.size() - 1));
+  stack_.frame().module = &module;
+  stack_.frame().call = module.place;
   for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.values.push(Value::unset());
 }
 
@@ -148,8 +151,11 @@ void ModuleCalls::unknown_module(Name name) {
 
 void ModuleCalls::pop_overwritten(Name parameter, Name module) {
   if (!stack_.values.pop().is_set()) return;
-  stack_.warn("Module " + stack_.text_of(module) + ": Parameter " + stack_.text_of(parameter) +
-                  " is overwritten with a literal",
+  const std::string module_name = stack_.text_of(module), name = stack_.text_of(parameter);
+  const Dialect& dialect = compiler_.dialect();
+  stack_.warn(dialect.names_module_of_parameter
+                  ? filled(dialect.overwritten_parameter, {module_name, name})
+                  : filled(dialect.overwritten_parameter, {name}),
               PathBase::kUnit);
 }
 
@@ -179,6 +185,7 @@ void Children::run_all(const NodeSite& site) {
 }
 
 bool Children::end_child(bool is_last) {
+  if (stack_.frame().kind == FrameKind::kSelection) return !goes_to_next();
   if (stack_.frame().kind == FrameKind::kBlock && !is_last) return false;
   stack_.leave();
   return true;
@@ -227,11 +234,8 @@ bool Children::select(const NodeSite& site, bool is_child) {
   return true;
 }
 
-// The number of the next child; unset after the last.
-Value Children::next_selected(uint32_t slot) {
-  const Value& selection = stack_.slot(slot);
-  const auto done = static_cast<uint32_t>(stack_.slot(slot + 1).number());
-  stack_.slot(slot + 1) = done + 1.0;
+// The number of a child in a selection; unset behind the last.
+Value Children::selected(const Value& selection, uint32_t done) {
   if (selection.is_range()) {
     if (done >= selection.range().steps()) return Value::unset();
     return selection.range().value(done);
@@ -242,7 +246,9 @@ Value Children::next_selected(uint32_t slot) {
 void Children::run_next(uint32_t slot, uint32_t after) {
   for (;;) {
     count_work(kWorkOfMessage);
-    const Value index = next_selected(slot);
+    const auto done = static_cast<uint32_t>(stack_.slot(slot + 1).number());
+    stack_.slot(slot + 1) = done + 1.0;
+    const Value index = selected(stack_.slot(slot), done);
     if (!index.is_set()) return stack_.jump(after);
     if (!index.is_number()) {
       std::string text;
@@ -254,6 +260,91 @@ void Children::run_next(uint32_t slot, uint32_t after) {
       return run(FrameKind::kChild, static_cast<uint32_t>(index.number()));
     }
   }
+}
+
+// Returns whether there is a child of that number, and says if not.
+bool Children::is_inside(int number) {
+  if (number >= 0 && static_cast<uint32_t>(number) < count()) return true;
+  stack_.warn("Children index (" + std::to_string(number) + ") out of bounds (" +
+                  std::to_string(count()) + " children)",
+              PathBase::kMainFile);
+  return false;
+}
+
+void Children::refuse_type(const std::string& text, std::string_view end) {
+  stack_.warn("Bad parameter type (" + text +
+                  ") for children, only accept: empty, number, vector, range" + std::string(end),
+              PathBase::kMainFile);
+}
+
+// Returns the numbers of the children that a selection means; nothing if there is to be no node.
+std::optional<Value> Children::numbers_of(const Value& selection) {
+  Value numbers = make_vector();
+  if (!selection.is_set()) {
+    for (uint32_t number = 0; number < count(); ++number)
+      append_element(numbers, static_cast<double>(number));
+  } else if (selection.is_number()) {
+    if (!is_inside(whole(selection.number()))) return std::nullopt;
+    append_element(numbers, std::trunc(selection.number()));
+  } else if (selection.is_range() && selection.range().count() >= kRangeLimit) {
+    stack_.warn("Bad range parameter for children: too many elements (" +
+                    std::to_string(selection.range().count()) + ")",
+                PathBase::kMainFile);
+    return std::nullopt;
+  } else if (selection.is_vector() || selection.is_range()) {
+    append_existing(numbers, selection);
+  } else {
+    refuse_type(echo_text(selection), "");
+    return std::nullopt;
+  }
+  return numbers;
+}
+
+void Children::append_existing(Value& numbers, const Value& selection) {
+  for (uint32_t done = 0;; ++done) {
+    count_work(kWorkOfMessage);
+    const Value index = selected(selection, done);
+    if (!index.is_set()) return;
+    if (!index.is_number()) {
+      std::string text;
+      append_str_text(text, index);
+      refuse_type(text, ".");
+    } else if (is_inside(whole(index.number()))) {
+      append_element(numbers, std::trunc(index.number()));
+    }
+  }
+}
+
+void Children::run_selection(const NodeSite& site, uint32_t none, bool is_child) {
+  Value selection = stack_.values.pop();
+  if (is_child && !selection.is_set()) selection = 0.0;
+  std::optional<Value> numbers = numbers_of(selection);
+  if (!numbers) return stack_.jump(none);
+  modules_.begin_node(site);
+  const Activation& module = *modules_.activation();
+  if (!module.block) return;
+  if (stack_.nests_too_deeply()) stack_.fail_recursion("module", "children", stack_.place());
+  const Code& code = compiler_.code_of(*module.block);
+  ValueStack& values = stack_.values;
+  const uint32_t base = values.size();
+  values.reserve(base + kSelectionSlots);
+  values.push(std::move(*numbers));
+  values.push(0.0);
+  stack_.push(code, base, HeapScopes::acquire(module.block_scope), FrameKind::kSelection,
+              module.block_activation);
+}
+
+// Goes to the next child that the frame runs, or ends it and returns false.
+bool Children::goes_to_next() {
+  const auto done = static_cast<uint32_t>(stack_.slot(1).number());
+  const Value next = selected(stack_.slot(0), done);
+  stack_.slot(1) = done + 1.0;
+  if (next.is_set()) {
+    stack_.jump(stack_.code().entries[static_cast<uint32_t>(next.number())]);
+  } else {
+    stack_.leave();
+  }
+  return next.is_set();
 }
 
 void Children::end_selection() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -90,11 +91,18 @@ class Children {
   /// Runs the next child of the selection in some slot, or goes to `after`.
   void run_next(uint32_t slot, uint32_t after);
   void end_selection();
+  /// Runs the children that the value on top selects in a group, or goes to `none`.
+  void run_selection(const NodeSite& site, uint32_t none, bool is_child);
   void say_child_is_deprecated();
 
  private:
   bool is_child_number(int number, bool is_child);
-  Value next_selected(uint32_t slot);
+  bool is_inside(int number);
+  void refuse_type(const std::string& text, std::string_view end);
+  std::optional<Value> numbers_of(const Value& selection);
+  void append_existing(Value& numbers, const Value& selection);
+  bool goes_to_next();
+  static Value selected(const Value& selection, uint32_t done);
   void run(FrameKind kind, uint32_t child);
 
   Compiler& compiler_;

@@ -152,6 +152,9 @@ void Machine::run() {
       case Op::kPop:
         now.drop();
         continue;
+      case Op::kSwap:
+        std::swap(now.top[-1], now.top[-2]);
+        continue;
       case Op::kToBool:
         now.top[-1] = Value::boolean(now.top[-1].is_true());
         continue;

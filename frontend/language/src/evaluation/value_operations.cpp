@@ -11,7 +11,7 @@ namespace language {
 namespace {
 
 // Ranges of this count and more are refused.
-constexpr uint32_t kStatementLimit = 10000, kElementLimit = 1000000;
+constexpr uint32_t kElementLimit = 1000000;
 constexpr double kRoundLimit = 1000000;  // of a C-style for
 
 // Bytes at the end that are cut off are no character; openscad never ends there.
@@ -35,7 +35,7 @@ void ValueOperations::push_dynamic(Name name, bool silently) {
 void ValueOperations::unknown_variable(Name name) {
   const bool is_special = compiler_.names().is_dynamic(name);
   const bool is_child_count = name == compiler_.known().child_count;
-  stack_.warn("Ignoring unknown variable '" + stack_.text_of(name) + "'",
+  stack_.warn(filled(compiler_.dialect().unknown_variable, {stack_.text_of(name)}),
               is_special && !is_child_count ? PathBase::kUnit : PathBase::kMainFile);
   values_.push(Value::undef());
 }
@@ -135,8 +135,8 @@ void ValueOperations::assert_top(const AssertSite& site, bool has_message) {
 }
 
 void ValueOperations::duplicate_let(Name name) {
-  stack_.warn("Ignoring duplicate variable assignment " + stack_.text_of(name) + " = " +
-                  echo_text(values_.top()),
+  stack_.warn(filled(compiler_.dialect().duplicate_assignment,
+                     {stack_.text_of(name), echo_text(values_.top())}),
               PathBase::kUnit);
   values_.drop();
 }
@@ -156,7 +156,7 @@ void ValueOperations::begin_loop(uint16_t kind) {
   Value& source = values_.top();
   if (source.is_range()) {
     const uint32_t count = source.range().count();
-    if (count >= (kind == kStatementLoop ? kStatementLimit : kElementLimit)) {
+    if (count >= (kind == kStatementLoop ? compiler_.dialect().too_many_rounds : kElementLimit)) {
       too_many(count);
       source = language::make_vector();
     }
