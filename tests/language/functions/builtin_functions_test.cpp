@@ -64,7 +64,8 @@ class BuiltinFunctions : public ::testing::Test {
 
  protected:
   NamedFiles named_files_{messages_, "/folder"};
-  FunctionEnvironment environment_{messages_, named_files_, std::mt19937()};
+  FunctionEnvironment environment_{dialect_of(LanguageVersion::k2021), messages_, named_files_,
+                                   std::mt19937()};
 };
 
 TEST_F(BuiltinFunctions, AreSortedByName) {

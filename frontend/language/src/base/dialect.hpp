@@ -3,6 +3,7 @@
 // "Dialects"). Each row is read in one place.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -91,6 +92,29 @@ class Dialect {
   /// Whether traces name assignments, and the parameters of modules.
   const bool has_full_traces = row(false, true);
 
+  // Values and functions
+
+  /// Whether [begin : end] with a lesser end is swapped, which is deprecated; else it is empty,
+  /// which is said of literals.
+  const bool swaps_reversed_ranges = row(true, false);
+  /// Whether builtin functions evaluate their arguments one by one, up to the first that is wrong;
+  /// else all of them, before anything is said, also where there are too many.
+  const bool has_lazy_functions = row(true, false);
+  /// Whether messages say which argument has the wrong type, and how many there should be.
+  const bool tells_wrong_arguments = row(false, true);
+  /// Whether min() and max() compare all elements of a vector; else numbers only.
+  const bool compares_any_elements = row(true, false);
+  /// Whether search() has freed texts of 16 bytes and more when it looks at them, finds numbers by
+  /// their texts, and warns of what it does not find.
+  const bool has_old_search = row(true, false);
+  /// Whether norm() and lookup() say what is no vector.
+  const bool tells_missing_vectors = row(false, true);
+  /// What version() returns: year, month and day.
+  const std::array<double, 3> program =
+      row(std::array<double, 3>{2021, 1, 0}, std::array<double, 3>{2025, 7, 18});
+  /// Whether the place is said where a file that is included or used cannot be opened.
+  const bool tells_place_of_missing_files = row(false, true);
+
   // Words, with {} for what they speak of
 
   const std::string_view overwritten =
@@ -102,6 +126,8 @@ class Dialect {
       words("argument {} supplied more than once", "argument \"{}\" supplied more than once");
   const std::string_view overriding_argument =
       words("argument {} supplied more than once", "argument \"{}\" overrides positional argument");
+  const std::string_view missing_include =
+      words("Can't open include file '{}'", "Can't find include file '{}'");
   const std::string_view unknown_variable =
       words("Ignoring unknown variable '{}'", "Ignoring unknown variable \"{}\"");
   const bool names_module_of_parameter = row(true, false);

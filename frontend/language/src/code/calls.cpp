@@ -34,14 +34,20 @@ void CodeCompiler::named_call(const CallExpression& call, Name name) {
 void CodeCompiler::builtin_call(const CallExpression& call, Name name) {
   const FunctionShape& shape = compiler_.builtins().functions.at(name);
   const size_t count = call.arguments.size();
-  if (count < shape.least_arguments || count > shape.most_arguments) {
-    out_.emit(Op::kWarnCount, call.place, 1, name);
-    return;
-  }
+  if (count < shape.least_arguments || count > shape.most_arguments)
+    return wrong_count(call, shape.index);
   if (shape.is_lazy) return lazy_call(call, shape.index);
   for (const Argument& argument : call.arguments) expression(*argument.value);
   out_.emit(Op::kCallBuiltin, call.place, 1 - static_cast<int>(count), shape.index,
             static_cast<uint32_t>(count));
+}
+
+void CodeCompiler::wrong_count(const CallExpression& call, uint32_t builtin) {
+  const uint32_t start = out_.depth();
+  if (!compiler_.dialect().has_lazy_functions && builtin != kIsUndefFunction)
+    for (const Argument& argument : call.arguments) expression(*argument.value);
+  drop_to(start, call.place);
+  out_.emit(Op::kWarnCount, call.place, 1, builtin, static_cast<uint32_t>(call.arguments.size()));
 }
 
 void CodeCompiler::lazy_call(const CallExpression& call, uint32_t builtin) {
@@ -70,10 +76,7 @@ void CodeCompiler::lazy_call(const CallExpression& call, uint32_t builtin) {
 }
 
 void CodeCompiler::is_undef_call(const CallExpression& call) {
-  if (call.arguments.size() != 1) {
-    out_.emit(Op::kWarnCount, call.place, 1, compiler_.known().is_undef);
-    return;
-  }
+  if (call.arguments.size() != 1) return wrong_count(call, kIsUndefFunction);
   const Expression& argument = *call.arguments[0].value;
   if (argument.kind == ExpressionKind::kVariable) {  // which may be unknown
     const Name name = as<VariableExpression>(argument).name;

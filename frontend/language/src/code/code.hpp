@@ -65,6 +65,9 @@ struct BlockEntry {
   const Code* code = nullptr;  // null: not compiled yet
 };
 
+/// The number of is_undef(), which is none of builtin_functions().
+constexpr uint32_t kIsUndefFunction = 0xFFFFFFFFu;
+
 /// A call of a user function or module by its name.
 struct CallSite {
   FunctionEntry* function = nullptr;  // one of both

@@ -81,6 +81,7 @@ class CodeCompiler {
   void call(const CallExpression& call);
   void named_call(const CallExpression& call, Name name);
   void builtin_call(const CallExpression& call, Name name);
+  void wrong_count(const CallExpression& call, uint32_t builtin);
   void lazy_call(const CallExpression& call, uint32_t builtin);
   void static_call(const CallExpression& call, Found<FunctionEntry> found, bool is_tail);
   void dynamic_call(const CallExpression& call, bool is_tail);

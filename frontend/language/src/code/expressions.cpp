@@ -256,7 +256,9 @@ void CodeCompiler::range(const RangeExpression& range) {
     expression(*range.step);
   }
   uint16_t flag = range.step ? kHasStep : 0;
-  if (range.step && is_literal(*range.begin) && is_literal(*range.step) && is_literal(*range.end))
+  const bool has_literal_step =
+      range.step ? is_literal(*range.step) : !compiler_.dialect().swaps_reversed_ranges;
+  if (has_literal_step && is_literal(*range.begin) && is_literal(*range.end))
     flag |= kChecksDirection;
   out_.emit(Op::kRange, range.place, range.step ? -2 : -1, 0, 0, flag);
   const uint32_t done = out_.emit(Op::kJump, range.place, -1);

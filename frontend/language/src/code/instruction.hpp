@@ -89,7 +89,8 @@ enum class Op : uint8_t {
                  // flag - 1, which is read no more, before that
   kNextLazy,     // go to the argument that lazy_calls[b] evaluates next, or call it
   kKeepLazy,     // pop a value and add it to the arguments of lazy_calls[b]
-  kWarnCount,    // say that builtin function b got a wrong number of arguments; push undef
+  kWarnCount,    // say that builtin function b got a, a wrong number of arguments; push
+                 // undef
   kUnknownFunction,   // warn of the name b; push undef
   kArgumentWarnings,  // say the warnings of plans[b]; once if flag
   kIfFunction,        // go to b if the top is a function value

@@ -33,13 +33,14 @@ ModuleShape shape_of(const BuiltinModule& module, uint32_t index, NameTable& nam
   return shape;
 }
 
-Builtins builtin_shapes(NameTable& names) {
+Builtins builtin_shapes(NameTable& names, const Dialect& dialect) {
   Builtins builtins;
   uint32_t index = 0;
   for (const BuiltinFunction& function : builtin_functions()) {
-    builtins.functions[names.intern(function.name)] = {index++, function.least_arguments,
-                                                       function.most_arguments,
-                                                       function.next_argument != nullptr};
+    const Arity arity = arity_of(function, dialect);
+    const bool is_lazy =
+        function.next_argument != nullptr && (dialect.has_lazy_functions || function.reads_names);
+    builtins.functions[names.intern(function.name)] = {index++, arity.least, arity.most, is_lazy};
   }
   index = 0;
   for (const BuiltinModule& module : builtin_modules()) {
@@ -220,7 +221,7 @@ void Session::evaluate_program() {
        {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
     program_->names.intern(name);
   DefinitionReader definitions(*program_, messages_, options_.stop);
-  Compiler compiler(*program_, definitions, builtin_shapes(program_->names),
+  Compiler compiler(*program_, definitions, builtin_shapes(program_->names, program_->dialect),
                     options_.check_parameters);
   const std::string& folder = program_->units[0].folder;
   NamedFiles files(messages_, folder);

@@ -132,8 +132,10 @@ void FunctionCalls::say_argument_warnings(uint32_t plan, bool once) {
     environment_.messages.warn(warning.text, warning.place, PathBase::kUnit);
 }
 
-void FunctionCalls::warn_count(Name name) {
-  stack_.warn(stack_.text_of(name) + "() number of parameters does not match", PathBase::kMainFile);
+void FunctionCalls::warn_count(uint32_t builtin, size_t found) {
+  constexpr BuiltinFunction kIsUndef{"is_undef", 1, 1, nullptr};
+  const BuiltinFunction& function = builtin == kIsUndefFunction ? kIsUndef : builtins_[builtin];
+  stack_.warn(wrong_count(function, found, compiler_.dialect()), PathBase::kMainFile);
   stack_.values.push(Value::undef());
 }
 
@@ -181,9 +183,9 @@ bool DynamicCalls::refuse_callee(const DynamicCall& site) {
                   PathBase::kMainFile);
   const BuiltinFunction& builtin = builtin_functions()[*site.builtin];
   const size_t count = site.arguments.size();
-  if (count >= builtin.least_arguments && count <= builtin.most_arguments) return false;
-  return refuse(std::string(builtin.name) + "() number of parameters does not match",
-                PathBase::kMainFile);
+  const Arity arity = arity_of(builtin, compiler_.dialect());
+  if (count >= arity.least && count <= arity.most) return false;
+  return refuse(wrong_count(builtin, count, compiler_.dialect()), PathBase::kMainFile);
 }
 
 void DynamicCalls::prepare(const DynamicCall& site) {

@@ -32,7 +32,7 @@ class FunctionCalls {
   void next_lazy(const LazyCall& site);
   void keep_lazy(const LazyCall& site);
   void say_argument_warnings(uint32_t plan, bool once);
-  void warn_count(Name name);
+  void warn_count(uint32_t builtin, size_t found);
   void unknown_function(Name name);
 
  private:

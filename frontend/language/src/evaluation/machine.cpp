@@ -31,7 +31,7 @@ static_assert(std::size(kOperators) == static_cast<size_t>(Op::kGreaterEqual) - 
 Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules, NodeTree& tree,
                  std::stop_token stop)
     : compiler_(compiler),
-      environment_{messages, modules.files, seeded_generator(), {}, {}},
+      environment_{compiler.dialect(), messages, modules.files, seeded_generator(), {}, {}},
       stack_(compiler.program(), environment_, tree, std::move(stop)),
       tops_(compiler, stack_),
       keeper_(compiler.program(), tree, stack_, tops_),
@@ -250,7 +250,7 @@ bool Machine::execute(const Instruction& step) {
       functions_.keep_lazy(code.lazy_calls[step.b]);
       break;
     case Op::kWarnCount:
-      functions_.warn_count(step.b);
+      functions_.warn_count(step.b, step.a);
       break;
     case Op::kUnknownFunction:
       functions_.unknown_function(step.b);

@@ -68,7 +68,7 @@ void ValueOperations::unary(Value (*op)(const Value&, OperatorProblem&)) {
 }
 
 void ValueOperations::make_range(uint16_t flags) {
-  if (!(flags & kHasStep)) {
+  if (!(flags & kHasStep) && compiler_.dialect().swaps_reversed_ranges) {
     const Value end = values_.pop();
     RangeProblem problem;
     values_.top() = range_of(values_.top(), end, problem);
@@ -81,7 +81,8 @@ void ValueOperations::make_range(uint16_t flags) {
     }
     return;
   }
-  const Value step = values_.pop(), end = values_.pop();
+  const Value step = flags & kHasStep ? values_.pop() : Value(1.0);
+  const Value end = values_.pop();
   const Value begin = values_.pop();
   values_.push(range_of(begin, step, end));
   if (!(flags & kChecksDirection) || !values_.top().is_range()) return;

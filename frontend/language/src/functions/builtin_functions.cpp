@@ -49,9 +49,9 @@ constexpr BuiltinFunction kFunctions[] = {
     {"chr", 0, kAnyCount, functions::characters, functions::next_of_characters},
     {"concat", 0, kAnyCount, functions::concatenation},
     {"cos", 1, 1, functions::cosine},
-    {"cross", 0, kAnyCount, functions::cross, functions::next_of_exactly_two},
-    {"dxf_cross", 0, kAnyCount, functions::drawing_cross, functions::next_of_drawing},
-    {"dxf_dim", 0, kAnyCount, functions::drawing_dimension, functions::next_of_drawing},
+    {"cross", 0, kAnyCount, functions::cross, functions::next_of_exactly_two, {2, 2}},
+    {"dxf_cross", 0, kAnyCount, functions::drawing_cross, functions::next_of_drawing, {}, true},
+    {"dxf_dim", 0, kAnyCount, functions::drawing_dimension, functions::next_of_drawing, {}, true},
     {"exp", 1, 1, functions::exponential},
     {"floor", 1, 1, functions::floor},
     {"is_bool", 1, 1, functions::is_bool},
@@ -61,17 +61,27 @@ constexpr BuiltinFunction kFunctions[] = {
     {"is_string", 1, 1, functions::is_string},
     {"len", 1, 1, functions::length},
     {"ln", 1, 1, functions::natural_logarithm},
-    {"log", 1, 2, functions::logarithm, functions::next_while_numbers},
+    {"log", 1, 2, functions::logarithm, functions::next_while_numbers, {1, 2, "2"}},
     {"lookup", 2, 2, functions::lookup, functions::next_of_lookup},
-    {"max", 1, kAnyCount, functions::maximum, functions::next_while_numbers},
-    {"min", 1, kAnyCount, functions::minimum, functions::next_while_numbers},
+    {"max",
+     1,
+     kAnyCount,
+     functions::maximum,
+     functions::next_while_numbers,
+     {1, kAnyCount, "at least 1"}},
+    {"min",
+     1,
+     kAnyCount,
+     functions::minimum,
+     functions::next_while_numbers,
+     {1, kAnyCount, "at least 1"}},
     {"norm", 1, 1, functions::norm},
-    {"ord", 0, kAnyCount, functions::code_point, functions::next_of_exactly_one},
-    {"parent_module", 0, 1, functions::parent_module},
+    {"ord", 0, kAnyCount, functions::code_point, functions::next_of_exactly_one, {1, 1}},
+    {"parent_module", 0, 1, functions::parent_module, nullptr, {0, 1, "1"}},
     {"pow", 2, 2, functions::power},
-    {"rands", 3, 4, functions::random_numbers, functions::next_of_random_numbers},
+    {"rands", 3, 4, functions::random_numbers, functions::next_of_random_numbers, {3, 4, "3 or 4"}},
     {"round", 1, 1, functions::round},
-    {"search", 2, kAnyCount, functions::search, functions::next_of_four},
+    {"search", 2, kAnyCount, functions::search, functions::next_of_four, {2, 4, "between 2 and 4"}},
     {"sign", 1, 1, functions::sign},
     {"sin", 1, 1, functions::sine},
     {"sqrt", 1, 1, functions::square_root},
@@ -84,5 +94,20 @@ constexpr BuiltinFunction kFunctions[] = {
 }  // namespace
 
 std::span<const BuiltinFunction> builtin_functions() { return kFunctions; }
+
+Arity arity_of(const BuiltinFunction& function, const Dialect& dialect) {
+  const bool is_other = dialect.tells_wrong_arguments && function.arity_of_2026.most > 0;
+  return is_other ? function.arity_of_2026
+                  : Arity{function.least_arguments, function.most_arguments};
+}
+
+std::string wrong_count(const BuiltinFunction& function, size_t found, const Dialect& dialect) {
+  std::string text = std::string(function.name) + "() number of parameters does not match";
+  if (!dialect.tells_wrong_arguments) return text;
+  const Arity arity = arity_of(function, dialect);
+  const std::string expected =
+      arity.words.empty() ? std::to_string(arity.least) : std::string(arity.words);
+  return text + ": expected " + expected + ", found " + std::to_string(found);
+}
 
 }  // namespace language

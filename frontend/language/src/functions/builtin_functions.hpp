@@ -36,6 +36,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/dialect.hpp"
 #include "files/named_files.hpp"
 #include "language/source_files.hpp"
 #include "language/value.hpp"
@@ -45,6 +46,7 @@ namespace language {
 
 /// What builtin functions use besides their arguments; one per evaluation.
 struct FunctionEnvironment {
+  const Dialect& dialect;
   Messages& messages;
   NamedFiles& files;
   std::mt19937 random;  // of rands(), seeded by time and process unless a call seeds it
@@ -72,17 +74,30 @@ struct FunctionCall {
 constexpr uint16_t kAnyCount = 0xFFFF;
 constexpr size_t kNoArgument = SIZE_MAX;
 
+/// How many arguments a function takes.
+struct Arity {
+  uint16_t least = 0, most = 0;
+  std::string_view words{};  // "3 or 4", where it is not `least` that is said to be expected
+};
+
 struct BuiltinFunction {
   std::string_view name;
-  uint16_t least_arguments;  // fewer or more: "‹f›() number of parameters does not match", undef,
-  uint16_t most_arguments;  // and no argument is evaluated
+  uint16_t least_arguments;  // fewer or more: "‹f›() number of parameters does not match", undef
+  uint16_t most_arguments;
   Value (*call)(const FunctionCall& call);
   /// A function that does not evaluate all its arguments has this: it returns which of the written
   /// arguments is evaluated next, given those that have been, or kNoArgument. Each value is added
   /// to the call's arguments, also where an argument is evaluated for a second time. Null: all are
   /// evaluated, in the order in which they are written.
   size_t (*next_argument)(const FunctionCall& call) = nullptr;
+  Arity arity_of_2026{};     // where it is another one, or has words
+  bool reads_names = false;  // of its arguments
 };
+
+/// Returns how many arguments a function takes in a dialect.
+Arity arity_of(const BuiltinFunction& function, const Dialect& dialect);
+/// Returns what is said of a call with a wrong number of arguments.
+std::string wrong_count(const BuiltinFunction& function, size_t found, const Dialect& dialect);
 
 /// All but those which the evaluator has to see through: is_undef, echo, assert, let. Sorted by
 /// name.
@@ -160,7 +175,11 @@ size_t next_of_characters(const FunctionCall& call);
 size_t next_of_random_numbers(const FunctionCall& call);
 size_t next_of_drawing(const FunctionCall& call);
 
-/// Warns that an argument has the wrong type, and returns undef.
-Value not_converted(const FunctionCall& call);
+/// Warns that an argument has the wrong type, and returns undef. `expected` names the right one.
+Value not_converted(const FunctionCall& call, size_t argument, std::string_view expected);
+/// Returns undef for an argument that is no vector, which may be said.
+Value no_vector(const FunctionCall& call, size_t argument);
+/// Warns of the first argument that is no number, and returns undef.
+Value no_number(const FunctionCall& call);
 
 }  // namespace language::functions

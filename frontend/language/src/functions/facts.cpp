@@ -9,9 +9,6 @@
 namespace language::functions {
 namespace {
 
-// The program that is imitated.
-constexpr double kYear = 2021, kMonth = 1, kDay = 0;
-
 Value combined(double year, double month, double day) { return year * 10000 + month * 100 + day; }
 
 // Returns a number as an int; what does not fit becomes the least one.
@@ -23,13 +20,15 @@ int int_of(double number) {
 
 }  // namespace
 
-Value version(const FunctionCall&) {
-  const std::array<Value, 3> parts = {kYear, kMonth, kDay};
+Value version(const FunctionCall& call) {
+  const auto& [year, month, day] = call.environment.dialect.program;
+  const std::array<Value, 3> parts = {year, month, day};
   return make_vector(parts);
 }
 
 Value version_number(const FunctionCall& call) {
-  if (call.arguments.empty()) return combined(kYear, kMonth, kDay);
+  const auto& [year, month, day] = call.environment.dialect.program;
+  if (call.arguments.empty()) return combined(year, month, day);
   const Value& argument = call.arguments[0];
   if (!argument.is_vector()) return Value::undef();
   const auto parts = argument.elements();
@@ -51,7 +50,9 @@ Value is_number(const FunctionCall& call) {
 }
 
 Value parent_module(const FunctionCall& call) {
-  if (!call.arguments.empty() && !call.arguments[0].is_number()) return Value::undef();
+  const bool is_wrong = !call.arguments.empty() && !call.arguments[0].is_number();
+  if (is_wrong && call.environment.dialect.tells_wrong_arguments) return no_number(call);
+  if (is_wrong) return Value::undef();
   const int level = call.arguments.empty() ? 1 : int_of(call.arguments[0].number());
   const auto refuse = [&](std::string_view before, std::string_view after) {
     call.warn(std::string(before) + "arent module index (" + std::to_string(level) + ") " +

@@ -41,11 +41,14 @@ struct Neighbours {
 
 Value lookup(const FunctionCall& call) {
   const Value &key = call.arguments[0], &table = call.arguments[1];
+  if (!key.is_number() && call.environment.dialect.tells_wrong_arguments)
+    return not_converted(call, 0, "number");
   if (!key.is_number() || !std::isfinite(key.number())) {
     call.warn("lookup(" + echo_text(key) + ", ...) first argument is not a number");
     return Value::undef();
   }
-  if (!table.is_vector() || table.elements().empty()) return Value::undef();
+  if (!table.is_vector()) return no_vector(call, 1);
+  if (table.elements().empty()) return Value::undef();
   const auto first = entry_of(table.elements()[0]);
   if (!first) return Value::undef();
   Neighbours neighbours{key.number(), *first, *first};

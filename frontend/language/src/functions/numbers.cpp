@@ -5,6 +5,7 @@
 #include "functions/builtin_functions.hpp"
 #include "language/degrees.hpp"
 #include "values/operators.hpp"
+#include "values/value_text.hpp"
 
 namespace language::functions {
 namespace {
@@ -12,13 +13,13 @@ namespace {
 template <typename Operation>
 Value of_number(const FunctionCall& call, Operation operation) {
   const Value& argument = call.arguments[0];
-  return argument.is_number() ? Value(operation(argument.number())) : not_converted(call);
+  return argument.is_number() ? Value(operation(argument.number())) : no_number(call);
 }
 
 template <typename Operation>
 Value of_numbers(const FunctionCall& call, Operation operation) {
   const Value &first = call.arguments[0], &second = call.arguments[1];
-  if (!are_numbers(first, second)) return not_converted(call);
+  if (!are_numbers(first, second)) return no_number(call);
   return operation(first.number(), second.number());
 }
 
@@ -36,20 +37,50 @@ bool is_before(const Value& left, const Value& right) {
   return operators::less(left, right, ignored).is_true();
 }
 
+/// Warns that a value, an argument or an element of one, is not of the type that is expected.
+Value refuse(const FunctionCall& call, const std::string& what, std::string_view expected,
+             const Value& found) {
+  std::string text = std::string(call.name) + "() parameter could not be converted";
+  if (call.environment.dialect.tells_wrong_arguments) {
+    text += ": " + what + ": expected " + std::string(expected) + ", found " +
+            std::string(type_name(found.type())) + " (" + echo_text(found) + ")";
+  }
+  call.warn(std::move(text));
+  return Value::undef();
+}
+
+Value no_elements(const FunctionCall& call) {
+  if (!call.environment.dialect.tells_wrong_arguments) return no_number(call);
+  call.warn(std::string(call.name) +
+            "() number of parameters does not match: expected at least 1 vector element, found 0");
+  return Value::undef();
+}
+
 // Calls `select` with what min() and max() choose from: numbers, or the elements of one vector.
 template <typename Select>
 Value extreme(const FunctionCall& call, Select select) {
   if (are_all_numbers(call.arguments)) return select(call.arguments);
-  if (call.written > 1 || !call.arguments[0].is_vector()) return not_converted(call);
+  if (call.written > 1 || !call.arguments[0].is_vector()) return no_number(call);
   const auto elements = call.arguments[0].elements();
-  return elements.empty() ? not_converted(call) : select(elements);
+  if (elements.empty()) return no_elements(call);
+  const auto wrong = std::find_if(elements.begin(), elements.end(),
+                                  [](const Value& element) { return !element.is_number(); });
+  if (call.environment.dialect.compares_any_elements || wrong == elements.end())
+    return select(elements);
+  return refuse(call, "vector element " + std::to_string(wrong - elements.begin()), "number",
+                *wrong);
 }
 
 }  // namespace
 
-Value not_converted(const FunctionCall& call) {
-  call.warn(std::string(call.name) + "() parameter could not be converted");
-  return Value::undef();
+Value not_converted(const FunctionCall& call, size_t argument, std::string_view expected) {
+  return refuse(call, "argument " + std::to_string(argument), expected, call.arguments[argument]);
+}
+
+Value no_number(const FunctionCall& call) {
+  const auto wrong = std::find_if(call.arguments.begin(), call.arguments.end(),
+                                  [](const Value& argument) { return !argument.is_number(); });
+  return not_converted(call, static_cast<size_t>(wrong - call.arguments.begin()), "number");
 }
 
 Value absolute(const FunctionCall& call) {

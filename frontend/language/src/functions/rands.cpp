@@ -76,6 +76,12 @@ size_t next_of_random_numbers(const FunctionCall& call) {
 
 Value random_numbers(const FunctionCall& call) {
   const auto arguments = call.arguments;
+  if (!call.environment.dialect.has_lazy_functions) {
+    for (size_t i = 0; i < arguments.size(); ++i) {
+      if (!arguments[i].is_number()) return no_number(call);
+      if (!std::isfinite(arguments[i].number())) warn_of_infinite(call, i);
+    }
+  }
   if (arguments.size() < call.written || !arguments.back().is_number()) return Value::undef();
   double least = finite_or(arguments[0], -kMostBound), most = finite_or(arguments[1], kMostBound);
   if (most < least) std::swap(least, most);

@@ -113,14 +113,17 @@ class Search {
       }
       if (begins_with(parts[column_], character)) append_element(indices, static_cast<double>(i));
     }
-    if (indices.elements().empty())
+    if (indices.elements().empty() && call_.environment.dialect.has_old_search)
       call_.warn("search term not found: \"" + std::string(character) + "\"");
     return indices;
   }
 
   // Returns whether a value's text begins with a character. OpenSCAD 2021.01 looks at the text when
   // it has freed it already, and so finds nothing where the text lies in a block of its own.
-  static bool begins_with(const Value& value, std::string_view character) {
+  bool begins_with(const Value& value, std::string_view character) const {
+    if (!call_.environment.dialect.has_old_search)
+      return value.is_string() && !value.text().empty() &&
+             first_code_point(value.text()) == first_code_point(character);
     constexpr size_t kLeastBlock = 16;  // bytes from which the text has a block
     std::string text;
     append_str_text(text, value);

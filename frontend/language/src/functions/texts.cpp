@@ -83,6 +83,10 @@ size_t next_of_characters(const FunctionCall& call) {
 
 Value characters(const FunctionCall& call) {
   std::string text;
+  if (!call.environment.dialect.has_lazy_functions) {
+    for (const Value& argument : call.arguments)
+      warn_of_long_ranges(argument, call.environment.messages);
+  }
   for (const Value& argument : call.arguments) append_characters(text, argument);
   return make_string(text);
 }
@@ -97,6 +101,8 @@ Value code_point(const FunctionCall& call) {
     return refuse("called with " + std::to_string(call.written) +
                   " arguments, only 1 argument expected");
   const Value& argument = call.arguments[0];
+  if (!argument.is_string() && call.environment.dialect.tells_wrong_arguments)
+    return not_converted(call, 0, "string");
   if (!argument.is_string())
     return refuse("argument " + echo_text(argument) + " is not of type string");
   const std::string_view text = argument.text();

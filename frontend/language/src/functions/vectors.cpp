@@ -38,8 +38,13 @@ Value refuse_cross(const FunctionCall& call, std::string_view problem) {
 
 }  // namespace
 
+Value no_vector(const FunctionCall& call, size_t argument) {
+  if (!call.environment.dialect.tells_missing_vectors) return Value::undef();
+  return not_converted(call, argument, "vector");
+}
+
 Value norm(const FunctionCall& call) {
-  if (!call.arguments[0].is_vector()) return Value::undef();
+  if (!call.arguments[0].is_vector()) return no_vector(call, 0);
   double sum = 0;
   for (const Value& element : call.arguments[0].elements()) {
     if (!element.is_number()) {
@@ -54,8 +59,11 @@ Value norm(const FunctionCall& call) {
 Value cross(const FunctionCall& call) {
   const auto arguments = call.arguments;
   if (call.written != 2) return refuse_cross(call, "Invalid number of parameters");
-  if (!arguments[0].is_vector() || !arguments[1].is_vector())
+  for (const size_t number : {0, 1}) {
+    if (arguments[number].is_vector()) continue;
+    if (call.environment.dialect.tells_missing_vectors) return no_vector(call, number);
     return refuse_cross(call, "Invalid type of parameters");
+  }
   const auto a = arguments[0].elements(), b = arguments[1].elements();
   if (a.size() == 2 && b.size() == 2) return cross_2d(a, b);
   if (a.size() != 3 || b.size() != 3) return refuse_cross(call, "Invalid vector size of parameter");
@@ -68,7 +76,7 @@ Value cross(const FunctionCall& call) {
 Value length(const FunctionCall& call) {
   const Value& argument = call.arguments[0];
   if (argument.is_vector()) return static_cast<double>(argument.elements().size());
-  if (!argument.is_string()) return not_converted(call);
+  if (!argument.is_string()) return not_converted(call, 0, "string");
   return static_cast<double>(static_cast<const StringObject&>(*argument.object()).code_points);
 }
 

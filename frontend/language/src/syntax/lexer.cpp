@@ -315,7 +315,7 @@ bool Lexer::lex_include(Token& token) {
     return true;
   }
   ++cursor_;
-  const FileId file = lookup_.include(named_file(path_folder + last_path_name_, token.place));
+  const FileId file = lookup_.include(named_file(path_folder + last_path_name_, path_place(token)));
   check_warnings();
   if (file == kNoFile) return false;
   last_path_name_.clear();
@@ -339,7 +339,7 @@ void Lexer::lex_use(Token& token) {
   }
   if (cursor_ == end_) return lex_unterminated(token, "use statement");
   ++cursor_;
-  lookup_.use(named_file(last_path_name_, token.place));
+  lookup_.use(named_file(last_path_name_, path_place(token)));
   check_warnings();
 }
 

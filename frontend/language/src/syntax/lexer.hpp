@@ -110,6 +110,10 @@ class Lexer {
   FileReference named_file(std::string_view name, Place place) const {
     return {name, place, folder_, being_included_};
   }
+  /// Returns where a path is looked for, behind which the cursor stands.
+  Place path_place(const Token& token) const {
+    return dialect_.counts_lines_of_paths ? position() : token.place;
+  }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();

@@ -19,6 +19,8 @@ namespace {
 /// folder in them as they are, on the folder where the program was started.
 constexpr char kNoFolder[] = "";
 
+constexpr std::string_view kMissingLibrary = "Can't open library '{}'";
+
 /// Returns a path made absolute on the folder where the program was started, which is also what an
 /// empty path means.
 std::string absolute(const std::string& path) {
@@ -151,10 +153,13 @@ void ProgramReader::look_whether_to_stop() const {
 
 /// Says why there is no text; `path` is empty where nothing was found. The words and the lack of a
 /// place are OpenSCAD's but for what it would read: pipes and devices, which may never end.
-void ProgramReader::cannot_open(std::string_view what, const FileReference& file,
+void ProgramReader::cannot_open(std::string_view words, const FileReference& file,
                                 const std::string& path) {
-  const std::string text = "Can't open " + std::string(what) + " '" + std::string(file.name) + "'";
-  if (path.empty() || is_regular_file(path)) return messages_.warn(text + ".");
+  const std::string text = filled(words, {file.name});
+  if (path.empty() || is_regular_file(path)) {
+    const bool has_place = program_.dialect.tells_place_of_missing_files;
+    return messages_.warn(text + ".", has_place ? file.place : Place{});
+  }
   messages_.warn(text + ": it is no regular file", file.place);
 }
 
@@ -168,7 +173,7 @@ FileId ProgramReader::include(const FileReference& file) {
   }
   const FileId id = path.empty() ? kNoFile : open(KeptSources::Role::kIncluded, path);
   if (id == kNoFile) {
-    cannot_open("include file", file, path);
+    cannot_open(program_.dialect.missing_include, file, path);
     return kNoFile;
   }
   included_.emplace(path, id);
@@ -192,7 +197,7 @@ FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
 void ProgramReader::use(const FileReference& file) {
   look_whether_to_stop();
   std::string path = search_.find(file.name, file.folder, file.being_included);
-  if (path.empty()) cannot_open("library", file, path);
+  if (path.empty()) cannot_open(kMissingLibrary, file, path);
   if (const std::string name(file.name); is_font(name)) return use_font(name, path);
   // What an included file does not find, the file that is parsed may: OpenSCAD tries again there,
   // without a word.
@@ -201,7 +206,7 @@ void ProgramReader::use(const FileReference& file) {
   auto known = used_.find(path);
   if (known == used_.end()) {
     const FileId id = open(KeptSources::Role::kUsed, path);
-    if (id == kNoFile) return cannot_open("library", file, path);
+    if (id == kNoFile) return cannot_open(kMissingLibrary, file, path);
     const std::string folder = fs::path(path).parent_path().string();
     const uint64_t version = program_.kept_file(id)->version();
     known = used_.emplace(path, add_unit(id, folder, version)).first;

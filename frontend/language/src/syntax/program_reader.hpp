@@ -59,7 +59,7 @@ class ProgramReader : public FileLookup {
   bool parse(uint32_t unit);
   uint32_t add_unit(FileId file, std::string folder, uint64_t version);
   FileId open(KeptSources::Role role, const std::string& path);
-  void cannot_open(std::string_view what, const FileReference& file, const std::string& path);
+  void cannot_open(std::string_view words, const FileReference& file, const std::string& path);
   std::string unit_text(std::string text) const;
   void use_font(const std::string& name, const std::string& path);
 
