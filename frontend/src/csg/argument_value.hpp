@@ -92,7 +92,8 @@ inline ArgumentValue::ArgumentValue(const language::NodeTree& tree,
                                     const language::NodeArgument& argument)
     : value_(&argument.value) {
   if (argument.number_count == 0) return;
-  const bool is_matrix = argument.style == language::ArgumentStyle::kMatrix;
+  const bool is_matrix = argument.style == language::ArgumentStyle::kMatrix ||
+                         argument.style == language::ArgumentStyle::kGeneralMatrix;
   *this = ArgumentValue(is_matrix ? Form::kRows : Form::kNumbers, argument.number_count,
                         tree.numbers_of(argument).data());
 }

@@ -173,9 +173,10 @@ TEST(Operators, Index) {
   EXPECT_EQ(at(text("a\xe2\x82"), 1), "undef");
   EXPECT_EQ(at(make_range(1, 2, 5), 1), "2");
   EXPECT_EQ(at(5, 0), "undef");
-  EXPECT_EQ(echo_text(member(vector, "z")), "3");
-  EXPECT_EQ(echo_text(member(vector, "w")), "undef");
-  EXPECT_EQ(echo_text(member(make_range(1, 2, 5), "end")), "5");
+  const Dialect& dialect = dialect_of(LanguageVersion::k2021);
+  EXPECT_EQ(echo_text(member(vector, "z", dialect)), "3");
+  EXPECT_EQ(echo_text(member(vector, "w", dialect)), "undef");
+  EXPECT_EQ(echo_text(member(make_range(1, 2, 5), "end", dialect)), "5");
 }
 
 TEST(ValueText, IsThatOfEchoAndStr) {

@@ -85,6 +85,9 @@ enum class ArgumentStyle : uint8_t {
   kGeneralTight,   // the same without blanks: [G,G,G]
   kEcho,           // as echo() spells values
   kMatrix,         // 16 numbers: four rows, as echo() spells them
+  kGeneralMatrix,  // the same by "%g"
+  kGeneralLists,   // a vector, or one of vectors, of numbers by "%g"
+  kGeneralSpaced,  // numbers with a blank before each: [ G, G]
   kInteger,        // a whole number, with all of its digits
   kRawString,      // in quotes, nothing escaped
   kEscapedString,  // in quotes, with \t \n \r \" \\ escaped

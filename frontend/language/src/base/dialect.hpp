@@ -97,6 +97,8 @@ class Dialect {
   /// Whether [begin : end] with a lesser end is swapped, which is deprecated; else it is empty,
   /// which is said of literals.
   const bool swaps_reversed_ranges = row(true, false);
+  /// Whether vectors have members of several letters, v.zyx and v.rgba, and a fourth one.
+  const bool has_swizzles = row(false, true);
   /// Whether builtin functions evaluate their arguments one by one, up to the first that is wrong;
   /// else all of them, before anything is said, also where there are too many.
   const bool has_lazy_functions = row(true, false);
@@ -115,6 +117,16 @@ class Dialect {
   /// Whether the place is said where a file that is included or used cannot be opened.
   const bool tells_place_of_missing_files = row(false, true);
 
+  // Nodes, and their text in a .csg
+
+  /// Whether matrices and lists of points are written by C's %g, which keeps -0; else as echo()
+  /// writes numbers.
+  const bool writes_general_numbers = row(false, true);
+  /// Whether color() checks its alpha, and what is no colour has none.
+  const bool checks_alpha = row(false, true);
+  /// Whether messages about colours have their names in small letters, and say where names are.
+  const bool tells_of_web_colors = row(true, false);
+
   // Words, with {} for what they speak of
 
   const std::string_view overwritten =
@@ -126,6 +138,9 @@ class Dialect {
       words("argument {} supplied more than once", "argument \"{}\" supplied more than once");
   const std::string_view overriding_argument =
       words("argument {} supplied more than once", "argument \"{}\" overrides positional argument");
+  const std::string_view ignored_radius =
+      words("Ignoring radius variable '{}' as diameter '{}' is defined too.",
+            "Ignoring radius variable \"{}\" as diameter \"{}\" is defined too.");
   const std::string_view missing_include =
       words("Can't open include file '{}'", "Can't find include file '{}'");
   const std::string_view unknown_variable =

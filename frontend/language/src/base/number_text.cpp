@@ -162,19 +162,6 @@ char* put_small_integer(char* out, double number) {
   return std::to_chars(out, out + kMostCharacters, integer).ptr;
 }
 
-char* put_general_number(char* out, double number) {
-  if (std::signbit(number)) *out++ = '-';
-  const double size = std::abs(number);
-  if (char* const end = put_small_integer(out, size)) return end;
-  if (!std::isfinite(size)) return put(out, std::isnan(size) ? "nan" : "inf");
-  const auto quick = round_quickly(size);
-  const Decimal decimal = quick ? *quick : round_to_even(size, kDigits);
-  Writer writer(decimal, out);
-  constexpr int kLeastExponent = -4;
-  const bool is_plain = decimal.exponent >= kLeastExponent && decimal.exponent <= kMostExponent;
-  return is_plain ? writer.plain() : writer.scientific(2);
-}
-
 /// Returns the decimal exponent of a number's first digit that is not 0, which it must have,
 /// roughly: exponents of more than six digits count as a million.
 long first_digit_exponent(std::string_view text) {
@@ -215,6 +202,19 @@ std::optional<double> short_number(std::string_view text) {
 }
 
 }  // namespace
+
+char* put_general_number(char* out, double number) {
+  if (std::signbit(number)) *out++ = '-';
+  const double size = std::abs(number);
+  if (char* const end = put_small_integer(out, size)) return end;
+  if (!std::isfinite(size)) return put(out, std::isnan(size) ? "nan" : "inf");
+  const auto quick = round_quickly(size);
+  const Decimal decimal = quick ? *quick : round_to_even(size, kDigits);
+  Writer writer(decimal, out);
+  constexpr int kLeastExponent = -4;
+  const bool is_plain = decimal.exponent >= kLeastExponent && decimal.exponent <= kMostExponent;
+  return is_plain ? writer.plain() : writer.scientific(2);
+}
 
 char* put_echo_number(char* out, double number) {
   if (char* const end = put_small_integer(out, number)) return end;

@@ -20,6 +20,7 @@ void append_general_number(std::string& out, double number);
 /// Characters that either of them takes at most: "-1.23457e+308".
 constexpr size_t kMostNumberText = 13;
 /// Writes what append_echo_number() appends. Returns its end.
+char* put_general_number(char* out, double number);
 char* put_echo_number(char* out, double number);
 
 /// Returns the double nearest to a decimal number: digits with an optional point and exponent,

@@ -43,7 +43,7 @@ Builtins builtin_shapes(NameTable& names, const Dialect& dialect) {
     builtins.functions[names.intern(function.name)] = {index++, arity.least, arity.most, is_lazy};
   }
   index = 0;
-  for (const BuiltinModule& module : builtin_modules()) {
+  for (const BuiltinModule& module : builtin_modules(dialect.version)) {
     builtins.modules[names.intern(module.name)] = shape_of(module, index, names);
     ++index;
   }
@@ -225,7 +225,7 @@ void Session::evaluate_program() {
                     options_.check_parameters);
   const std::string& folder = program_->units[0].folder;
   NamedFiles files(messages_, folder);
-  ModuleEnvironment modules{messages_, files, options_.check_ranges};
+  ModuleEnvironment modules{program_->dialect, messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   preset_names(machine);
   if (kept_) {

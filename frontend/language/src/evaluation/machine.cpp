@@ -177,13 +177,15 @@ bool Machine::execute(const Instruction& step) {
       break;
     }
     case Op::kMember:
-      stack_.values.top() = member(stack_.values.top(), compiler_.names().text(step.b));
+      stack_.values.top() =
+          member(stack_.values.top(), compiler_.names().text(step.b), compiler_.dialect());
       break;
     case Op::kIndexLocal:
       stack_.values.top() = element_at(stack_.slot(step.a), stack_.values.top());
       break;
     case Op::kMemberLocal:
-      stack_.values.push(member(stack_.slot(step.a), compiler_.names().text(step.b)));
+      stack_.values.push(
+          member(stack_.slot(step.a), compiler_.names().text(step.b), compiler_.dialect()));
       break;
     case Op::kRange:
       values_.make_range(step.flag);

@@ -63,7 +63,7 @@ class ModuleCalls {
   NodeTree& tree_;
   CallStack& stack_;
   CallKeeper& keeper_;
-  const std::span<const BuiltinModule> builtins_ = builtin_modules();
+  const std::span<const BuiltinModule> builtins_;
   std::vector<uint32_t> open_nodes_;  // of the tree, from outside in
   std::vector<Activation> activations_;
   std::vector<HeapScope*> block_scopes_;  // of blocks whose modules are about to be called

@@ -82,8 +82,45 @@ constexpr BuiltinModule kModules[] = {
 };
 static_assert(std::ranges::is_sorted(kModules, {}, &BuiltinModule::name));
 
+constexpr std::string_view kNewLinearExtrude[] = {"height", "v",      "scale",   "center",
+                                                  "twist",  "slices", "segments"};
+constexpr std::string_view kNewLinearExtrudeNamed[] = {"convexity", "h"};
+constexpr std::string_view kNewRotateExtrude[] = {"angle", "start", "convexity"};
+constexpr std::string_view kNewRotateExtrudeNamed[] = {"a"};
+constexpr std::string_view kNewImportNamed[] = {"width",  "height", "filename", "layername",
+                                                "center", "dpi",    "id"};
+constexpr std::string_view kRoof[] = {"method", "convexity"};
+
+/// In place of the rows of these names, or beside them.
+constexpr BuiltinModule kModulesOf2026[] = {
+    {"fill", {}, {}, kTakes, make_fill},
+    {"import", kImport, kNewImportNamed, kRefuses, make_import_2026},
+    {"linear_extrude", kNewLinearExtrude, kNewLinearExtrudeNamed, kTakes, make_linear_extrude_2026},
+    {"polygon", kPolygon, {}, kRefuses, make_polygon_2026},
+    {"polyhedron", kPolyhedron, kTriangles, kRefuses, make_polyhedron_2026},
+    {"roof", kRoof, {}, kTakes, make_roof},
+    {"rotate_extrude", kNewRotateExtrude, kNewRotateExtrudeNamed, kTakes, make_rotate_extrude_2026},
+    {"surface", kSurface, kInvert, kRefuses, make_surface},
+    {"text", kText, kTextNamed, kRefuses, make_text_2026},
+};
+
+std::vector<BuiltinModule> modules_of_2026() {
+  std::vector<BuiltinModule> modules(std::begin(kModulesOf2026), std::end(kModulesOf2026));
+  for (const BuiltinModule& module : kModules) {
+    if (std::ranges::find(kModulesOf2026, module.name, &BuiltinModule::name) ==
+        std::end(kModulesOf2026))
+      modules.push_back(module);
+  }
+  std::ranges::sort(modules, {}, &BuiltinModule::name);
+  return modules;
+}
+
 }  // namespace
 
-std::span<const BuiltinModule> builtin_modules() { return kModules; }
+std::span<const BuiltinModule> builtin_modules(LanguageVersion version) {
+  static const std::vector<BuiltinModule> of_2026 = modules_of_2026();
+  if (version == LanguageVersion::k2026) return of_2026;
+  return kModules;
+}
 
 }  // namespace language

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/dialect.hpp"
 #include "files/named_files.hpp"
 #include "language/node_tree.hpp"
 #include "language/source_files.hpp"
@@ -17,6 +18,7 @@ namespace language {
 
 /// What builtin modules use besides their arguments; one per evaluation.
 struct ModuleEnvironment {
+  const Dialect& dialect;
   Messages& messages;
   NamedFiles& files;
   bool checks_ranges = false;  // --check-parameter-ranges
@@ -65,8 +67,9 @@ struct BuiltinModule {
 
 /// All whose arguments are resolved by the rules of user modules. Left to the evaluator: for,
 /// intersection_for, let, assign, if, echo, assert, children, child, each, group, union,
-/// difference, intersection. Sorted by name.
-std::span<const BuiltinModule> builtin_modules();
+/// difference, intersection. Sorted by name. Those of 2026 have other rows where parameters, or
+/// what is made of them, differ.
+std::span<const BuiltinModule> builtin_modules(LanguageVersion version);
 
 // Each is a BuiltinModule's make(). The first line of each group names the file.
 
@@ -124,5 +127,21 @@ Made make_import(const BuiltinCall& call, NodeTree& tree);
 Made make_typed_import(const BuiltinCall& call, NodeTree& tree);
 // file, center, convexity, invert
 Made make_surface(const BuiltinCall& call, NodeTree& tree);
+
+// The same in 2026. points, faces, convexity, triangles; points, paths, convexity
+Made make_polyhedron_2026(const BuiltinCall& call, NodeTree& tree);
+Made make_polygon_2026(const BuiltinCall& call, NodeTree& tree);
+// text, size, font, direction, language, script, halign, valign, spacing
+Made make_text_2026(const BuiltinCall& call, NodeTree& tree);
+// height, v, scale, center, twist, slices, segments, convexity, h
+Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree);
+// angle, start, convexity, a
+Made make_rotate_extrude_2026(const BuiltinCall& call, NodeTree& tree);
+// those of import(), id
+Made make_import_2026(const BuiltinCall& call, NodeTree& tree);
+// none
+Made make_fill(const BuiltinCall& call, NodeTree& tree);
+// method, convexity
+Made make_roof(const BuiltinCall& call, NodeTree& tree);
 
 }  // namespace language

@@ -21,25 +21,48 @@ void append_general(std::string& out, const Value& value) {
   }
 }
 
-void append_list(std::string& out, std::span<const double> numbers, std::string_view separator) {
-  out += '[';
+void append_numbers(std::string& out, std::span<const double> numbers, std::string_view separator) {
   std::string_view before;
   for (const double number : numbers) {
     out += std::exchange(before, separator);
     append_general_number(out, number);
   }
+}
+
+void append_list(std::string& out, std::span<const double> numbers, std::string_view separator) {
+  out += '[';
+  append_numbers(out, numbers, separator);
+  out += ']';
+}
+
+/// Appends a vector of vectors of numbers; anything else as a value.
+void append_lists(std::string& out, const Value& lists) {
+  if (!lists.is_vector()) return append_general(out, lists);
+  out += '[';
+  std::string_view before_list;
+  for (const Value& list : lists.elements()) {
+    out += std::exchange(before_list, ", ");
+    out += '[';
+    std::string_view before;
+    for (const Value& number : list.elements()) {
+      out += std::exchange(before, ", ");
+      append_general_number(out, number.number());
+    }
+    out += ']';
+  }
   out += ']';
 }
 
 // Most of a tree's text is matrices: each is put together first and appended once.
-void append_matrix(std::string& out, std::span<const double> numbers) {
+void append_matrix(std::string& out, std::span<const double> numbers,
+                   char* (*put_number)(char* out, double number)) {
   constexpr size_t kColumns = 4, kNumbers = 16, kMostBetween = 4;
   std::array<char, kNumbers*(kMostNumberText + kMostBetween)> text;
   char* end = text.data();
   const auto put = [&](std::string_view part) { end = std::copy(part.begin(), part.end(), end); };
   for (size_t i = 0; i < kNumbers; ++i) {
     put(i == 0 ? "[[" : i % kColumns == 0 ? "], [" : ", ");
-    end = put_echo_number(end, numbers[i]);
+    end = put_number(end, numbers[i]);
   }
   put("]]");
   out.append(text.data(), end);
@@ -72,7 +95,16 @@ void append_value(std::string& out, const NodeTree& tree, const NodeArgument& ar
     case ArgumentStyle::kEcho:
       return append_value_text(out, argument.value);
     case ArgumentStyle::kMatrix:
-      return append_matrix(out, numbers);
+      return append_matrix(out, numbers, put_echo_number);
+    case ArgumentStyle::kGeneralMatrix:
+      return append_matrix(out, numbers, put_general_number);
+    case ArgumentStyle::kGeneralLists:
+      return append_lists(out, argument.value);
+    case ArgumentStyle::kGeneralSpaced:
+      out += "[ ";
+      append_numbers(out, numbers, ", ");
+      out += ']';
+      return;
     case ArgumentStyle::kInteger:
       return append_integer(out, argument.value.number());
     case ArgumentStyle::kRawString:

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "base/number_text.hpp"
 #include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 
@@ -107,6 +109,127 @@ Made make_linear_extrude(const BuiltinCall& call, NodeTree& tree) {
   add_numbers(tree, "scale", scale);
   if (slices < 1) add_fragments(tree, fragments_of(call));
   return name.empty() ? Made::kNode : Made::kLeaf;
+}
+
+namespace {
+
+/// Reads a whole number of 0 and more; nothing where there is none, which is told of another type.
+std::optional<int64_t> read_count(const BuiltinCall& call, const Value& value,
+                                  const std::string& name, int64_t least) {
+  if (value.is_number())
+    return std::max(static_cast<int64_t>(low_bits(std::max(value.number(), 0.0))), least);
+  if (is_given(value)) warn(call, wrong_type("linear_extrude", name, "number", value));
+  return std::nullopt;
+}
+
+/// Returns the one of a parameter's two names that is given; told where both are.
+const Value& one_of(const BuiltinCall& call, const Value& value, const Value& other,
+                    std::string_view name, std::string_view other_name) {
+  if (is_given(value) && is_given(other)) {
+    warn(call,
+         "Specified both \"" + std::string(name) + "\" and \"" + std::string(other_name) + "\"");
+  }
+  return is_given(value) ? value : other;
+}
+
+void say_error(const BuiltinCall& call, std::string text) {
+  call.environment.messages.say(MessageGroup::kError, std::move(text));
+}
+
+/// The height, and the direction, of length 1.
+struct Sweep {
+  double height = 100;
+  std::array<double, 3> direction = {0, 0, 1};
+};
+
+Sweep read_sweep(const BuiltinCall& call, const Value& height, const Value& v) {
+  Sweep sweep;
+  const bool has_v = is_given(v);
+  if (has_v) {
+    std::array<double, 3> along{};
+    const bool is_vector = v.is_vector() && v.elements().size() == 3 && v.holds_numbers();
+    if (is_vector) {
+      for (size_t axis = 0; axis < 3; ++axis) along[axis] = v.elements()[axis].number();
+    } else {
+      say_error(call, "v when specified should be a 3d vector.");
+      along = sweep.direction;
+    }
+    sweep.height = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+    if (sweep.height > 0)
+      for (double& part : along) part /= sweep.height;
+    sweep.direction = along;
+  }
+  if (is_finite_number(height)) {
+    sweep.height = height.number();
+  } else if (is_given(height)) {
+    say_error(call, "height when specified should be a number.");
+    sweep.height = 100;
+  }
+  if (sweep.height <= 0 || sweep.direction[2] < 0) sweep.height = 0;
+  return sweep;
+}
+
+}  // namespace
+
+Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
+  enum : size_t { kHeight, kV, kScale, kCenter, kTwist, kSlices, kSegments, kConvexity, kH };
+  const auto& given = call.parameters;
+  set_kind(tree, NodeKind::kLinearExtrude);
+  const Value& height = one_of(call, given[kHeight], given[kH], "height", "h");
+  const Sweep sweep = read_sweep(call, height, given[kV]);
+  std::array<double, 2> scale = {1, 1};
+  double x = 1, y = 1;
+  if (is_finite_number(given[kScale])) {
+    scale.fill(given[kScale].number());
+  } else if (read_vec2(given[kScale], x, y) && std::isfinite(x) && std::isfinite(y)) {
+    scale = {x, y};
+  } else if (is_given(given[kScale])) {
+    warn(call, "linear_extrude(..., scale=" + shown(given[kScale]) + ") could not be converted");
+  }
+  for (double& factor : scale) factor = std::max(factor, 0.0);
+  const auto slices = read_count(call, given[kSlices], "slices", 1);
+  const auto segments = read_count(call, given[kSegments], "segments", 0);
+  add(tree, "height", sweep.height);
+  const bool is_upright = sweep.direction[0] == 0 && sweep.direction[1] == 0;
+  if (!is_upright && sweep.height > 0)
+    add_numbers(tree, "v", sweep.direction, ArgumentStyle::kGeneralSpaced);
+  if (is_true_bool(given[kCenter])) add_bool(tree, "center", true);
+  const Value& twist = given[kTwist];
+  if (is_finite_number(twist) && twist.number() != 0) add(tree, "twist", twist);
+  if (slices) add_integer(tree, "slices", *slices);
+  if (segments) add_integer(tree, "segments", *segments);
+  if (scale[0] != scale[1]) {
+    add_numbers(tree, "scale", scale);
+  } else if (scale[0] != 1) {
+    add(tree, "scale", scale[0]);
+  }
+  if (!slices || !segments) add_fragments(tree, fragments_of(call));
+  const int convexity = integer_or(given[kConvexity], 1);
+  if (convexity > 1) add_integer(tree, "convexity", convexity);
+  return Made::kNode;
+}
+
+Made make_rotate_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
+  enum : size_t { kAngle, kStart, kConvexity, kA };
+  const auto& given = call.parameters;
+  set_kind(tree, NodeKind::kRotateExtrude);
+  const Value& angle = one_of(call, given[kAngle], given[kA], "angle", "a");
+  const bool has_angle = is_finite_number(angle);
+  const Fragments fragments = fragments_of(call);
+  double start = has_angle ? 0 : 180;
+  if (is_finite_number(given[kStart])) {
+    start = given[kStart].number();
+  } else if (!has_angle && integer_or(fragments.number, 0) % 2 == 1) {
+    deprecate(call,
+              "In future releases, rotational extrusion without \"angle\" will start at zero, the "
+              "+X axis.  Set start=180 to explicitly start on the -X axis.");
+  }
+  const int convexity = integer_or(given[kConvexity], 0);
+  add(tree, "angle", read_angle(angle));
+  add(tree, "start", start);
+  add_integer(tree, "convexity", convexity <= 0 ? 2 : convexity);
+  add_fragments(tree, fragments);
+  return Made::kNode;
 }
 
 namespace rotated {

@@ -48,20 +48,23 @@ double read_dpi(const BuiltinCall& call, const Value& dpi, const Value& origin) 
   return kDefault;
 }
 
+/// The parameters of import().
+enum ImportParameter : size_t {
+  kFile,
+  kLayer,
+  kConvexity,
+  kOrigin,
+  kScale,
+  kWidth,
+  kHeight,
+  kFilename,
+  kLayername,
+  kCenter,
+  kDpi,
+  kId,  // in 2026
+};
+
 Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
-  enum : size_t {
-    kFile,
-    kLayer,
-    kConvexity,
-    kOrigin,
-    kScale,
-    kWidth,
-    kHeight,
-    kFilename,
-    kLayername,
-    kCenter,
-    kDpi
-  };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kImport);
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
@@ -89,6 +92,34 @@ Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
 }
 
 }  // namespace
+
+Made make_import_2026(const BuiltinCall& call, NodeTree& tree) {
+  const auto& given = call.parameters;
+  set_kind(tree, NodeKind::kImport);
+  const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
+  const NamedFile file = call.environment.files.find(name);
+  const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
+  const std::string id = str_or_nothing(given[kId]);
+  double x = 0, y = 0;
+  const bool is_origin = read_vec2(given[kOrigin], x, y) && std::isfinite(x) && std::isfinite(y);
+  if (is_given(given[kOrigin]) && !is_origin) {
+    warn(call,
+         "Unable to convert import(..., origin=" + shown(given[kOrigin]) + ") parameter to vec2");
+  }
+  const double scale = number_or(given[kScale], 0);
+  const double dpi = read_dpi(call, given[kDpi], given[kOrigin]);
+  add_escaped(tree, "file", file.path);
+  if (!id.empty()) add_escaped(tree, "id", id);
+  if (!layer.empty()) add_escaped(tree, "layer", layer);
+  add_numbers(tree, "origin", {x, y});
+  if (is_svg(file.path)) add(tree, "dpi", dpi);
+  add(tree, "scale", scale <= 0 ? 1 : scale);
+  add_bool(tree, "center", is_true_bool(given[kCenter]));
+  add_integer(tree, "convexity", std::max(integer_or(given[kConvexity], 0), 1));
+  add_fragments(tree, fragments_of(call));
+  add_integer(tree, "timestamp", file.timestamp);
+  return Made::kNode;
+}
 
 Made make_import(const BuiltinCall& call, NodeTree& tree) {
   return make_import_node(call, tree, true);

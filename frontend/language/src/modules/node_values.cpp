@@ -65,6 +65,13 @@ bool read_vec3(const Value& value, std::array<double, 3>& xyz, double filler) {
 
 std::string shown(const Value& value) { return value.is_set() ? echo_text(value) : "undef"; }
 
+std::string wrong_type(std::string_view module, std::string_view parameter,
+                       std::string_view expected, const Value& found) {
+  return std::string(module) + "(..., " + std::string(parameter) + "=" + shown(found) +
+         ") Invalid type: expected " + std::string(expected) + ", found " +
+         std::string(type_name(found.type()));
+}
+
 void warn(const BuiltinCall& call, std::string text) {
   call.environment.messages.warn(std::move(text), call.place);
 }

@@ -37,6 +37,9 @@ bool read_vec3(const Value& value, std::array<double, 3>& xyz, double filler);
 
 /// Returns a text with the value as echo() shows it: undef if it is not set.
 std::string shown(const Value& value);
+/// Returns what is said of a parameter of another type than the expected one.
+std::string wrong_type(std::string_view module, std::string_view parameter,
+                       std::string_view expected, const Value& found);
 void warn(const BuiltinCall& call, std::string text);
 /// Says what is deprecated, without a place.
 void deprecate(const BuiltinCall& call, std::string text);

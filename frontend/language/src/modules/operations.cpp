@@ -49,8 +49,32 @@ Made make_offset(const BuiltinCall& call, NodeTree& tree) {
   return Made::kNode;
 }
 
+Made make_fill(const BuiltinCall&, NodeTree& tree) {
+  set_kind(tree, NodeKind::kFill);
+  return Made::kNode;
+}
+
 Made make_hull(const BuiltinCall&, NodeTree& tree) {
   set_kind(tree, NodeKind::kHull);
+  return Made::kNode;
+}
+
+Made make_roof(const BuiltinCall& call, NodeTree& tree) {
+  set_kind(tree, NodeKind::kRoof);
+  constexpr std::string_view kDefault = "voronoi";
+  std::string method = str_or_nothing(call.parameters[0]);
+  if (!is_given(call.parameters[0])) method = kDefault;
+  if (method != kDefault && method != "straight") {
+    warn(call, "Unknown roof method '" + method + "'. Using 'voronoi'.");
+    method = kDefault;
+  }
+  Fragments fragments = fragments_of(call);
+  if (fragments.number > 0) fragments = {fragments.number, 360 / fragments.number, 0};
+  add_raw(tree, "method", method);
+  add(tree, "$fa", fragments.angle);
+  add(tree, "$fs", fragments.size);
+  add(tree, "$fn", fragments.number);
+  add_integer(tree, "convexity", integer_or(call.parameters[1], 1));
   return Made::kNode;
 }
 

@@ -1,11 +1,16 @@
 // polyhedron and polygon: their lists are written as they are, and checked where geometry is made.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/evaluation_thread.hpp"
+#include "base/number_text.hpp"
+#include "language/make.hpp"
 #include "modules/builtin_modules.hpp"
 #include "modules/node_values.hpp"
 #include "values/function_object.hpp"
@@ -52,7 +57,147 @@ void add_convexity(NodeTree& tree, const Value& convexity) {
   add_integer(tree, "convexity", std::max(integer_or(convexity, 0), 1));
 }
 
+/// Reads lists of points and of their numbers as 2026 does: what is wrong is told, and left out or
+/// 0.
+class CheckedLists {
+ public:
+  CheckedLists(const BuiltinCall& call, size_t dimension) : call_(call), dimension_(dimension) {}
+
+  /// Reads points; nothing if the value is no vector.
+  std::optional<Value> points(const Value& list) {
+    if (!list.is_vector()) {
+      say("points", list, "a vector of coordinates");
+      return std::nullopt;
+    }
+    Value points = make_vector(list.elements().size());
+    size_t number = 0;
+    for (const Value& element : list.elements()) {
+      count_work();
+      append_element(points, point(element, number++));
+    }
+    return points;
+  }
+
+  /// Reads lists of at least so many numbers of points.
+  Value index_lists(const Value& lists, const char* name, size_t points, size_t least) {
+    Value read = make_vector();
+    if (!lists.is_vector()) {
+      say(name, lists, "a vector of vector of point indices");
+      return read;
+    }
+    size_t number = 0;
+    for (const Value& list : lists.elements()) {
+      const std::string where = std::string(name) + "[" + std::to_string(number++) + "]";
+      if (!list.is_vector()) {
+        say(where, list, "a vector of numbers");
+        continue;
+      }
+      Value indices = index_list(list.elements(), where, points);
+      if (indices.elements().size() >= least) append_element(read, std::move(indices));
+    }
+    return read;
+  }
+
+ private:
+  Value point(const Value& element, size_t number) {
+    std::array<double, 3> xyz{};
+    std::span<const Value> parts;
+    if (element.is_vector()) parts = element.elements();
+    // Two coordinates lie in the plane z = 0.
+    bool is_good = parts.size() == dimension_ || (parts.size() == 2 && dimension_ == 3);
+    for (size_t i = 0; is_good && i < parts.size(); ++i) {
+      is_good = is_finite_number(parts[i]);
+      if (is_good) xyz[i] = parts[i].number();
+    }
+    if (!is_good) {
+      xyz = {};
+      say("points[" + std::to_string(number) + "]", element,
+          "a vec" + std::to_string(dimension_) + " of numbers");
+    }
+    Value made = make_vector(dimension_);
+    for (size_t i = 0; i < dimension_; ++i) append_element(made, xyz[i]);
+    return made;
+  }
+
+  Value index_list(std::span<const Value> list, const std::string& where, size_t points) {
+    Value indices = make_vector(list.size());
+    for (size_t i = 0; i < list.size(); ++i) {
+      count_work();
+      const std::string place = where + "[" + std::to_string(i) + "]";
+      if (!list[i].is_number()) {
+        say(place, list[i], "a number");
+        continue;
+      }
+      const double index = std::trunc(std::max(list[i].number(), 0.0));
+      if (index < static_cast<double>(points)) {
+        append_element(indices, index);
+        continue;
+      }
+      std::string text;
+      append_general_number(text, index);
+      warn(call_, "Point index " + text + " is out of bounds (from " + place + ")");
+    }
+    return indices;
+  }
+
+  void say(const std::string& what, const Value& found, const std::string& expected) {
+    call_.environment.messages.say(
+        MessageGroup::kError,
+        "Unable to convert " + what + " = " + shown(found) + " to " + expected, call_.place,
+        PathBase::kMainFile);
+  }
+
+  const BuiltinCall& call_;
+  size_t dimension_;
+};
+
 }  // namespace
+
+Made make_polyhedron_2026(const BuiltinCall& call, NodeTree& tree) {
+  enum : size_t { kPoints, kFaces, kConvexity, kTriangles };
+  const auto& given = call.parameters;
+  set_kind(tree, NodeKind::kPolyhedron);
+  check_fragments(call);
+  CheckedLists lists(call, 3);
+  const auto points = lists.points(given[kPoints]);
+  Value faces = make_vector();
+  int convexity = 1;
+  if (points) {
+    const bool has_triangles = !is_given(given[kFaces]) && is_given(given[kTriangles]);
+    if (has_triangles) {
+      call.environment.messages.say(MessageGroup::kDeprecated,
+                                    "polyhedron(triangles=[]) will be removed in future releases. "
+                                    "Use polyhedron(faces=[]) instead.",
+                                    call.place, PathBase::kMainFile);
+    }
+    constexpr size_t kLeastCorners = 3;
+    faces = lists.index_lists(given[has_triangles ? kTriangles : kFaces], "faces",
+                              points->elements().size(), kLeastCorners);
+    convexity = std::max(integer_or(given[kConvexity], 0), 1);
+  }
+  add(tree, "points", points.value_or(make_vector()), ArgumentStyle::kGeneralLists);
+  add(tree, "faces", std::move(faces), ArgumentStyle::kGeneralLists);
+  add_integer(tree, "convexity", convexity);
+  return Made::kNode;
+}
+
+Made make_polygon_2026(const BuiltinCall& call, NodeTree& tree) {
+  enum : size_t { kPoints, kPaths, kConvexity };
+  const auto& given = call.parameters;
+  set_kind(tree, NodeKind::kPolygon);
+  check_fragments(call);
+  CheckedLists lists(call, 2);
+  const auto points = lists.points(given[kPoints]);
+  Value paths = Value::undef();
+  if (points && is_given(given[kPaths])) {
+    Value read = lists.index_lists(given[kPaths], "paths", points->elements().size(), 0);
+    if (!read.elements().empty()) paths = std::move(read);
+  }
+  add(tree, "points", points.value_or(make_vector()), ArgumentStyle::kGeneralLists);
+  add(tree, "paths", std::move(paths), ArgumentStyle::kGeneralLists);
+  add_integer(tree, "convexity", points ? std::max(integer_or(given[kConvexity], 0), 1) : 1);
+  return Made::kNode;
+}
 
 Made make_polyhedron(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kPoints, kFaces, kConvexity, kTriangles };

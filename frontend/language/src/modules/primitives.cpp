@@ -19,8 +19,7 @@ Value read_radius(const BuiltinCall& call, const Value& radius, const Value& dia
                   const char* radius_name, const char* diameter_name) {
   if (!diameter.is_number()) return radius.is_number() ? radius : Value::unset();
   if (radius.is_number()) {
-    warn(call, "Ignoring radius variable '" + std::string(radius_name) + "' as diameter '" +
-                   diameter_name + "' is defined too.");
+    warn(call, filled(call.environment.dialect.ignored_radius, {radius_name, diameter_name}));
   }
   return diameter.number() / 2;
 }

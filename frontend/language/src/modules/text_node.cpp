@@ -1,4 +1,5 @@
 // text().
+#include <iterator>
 #include <string>
 
 #include "modules/builtin_modules.hpp"
@@ -26,7 +27,10 @@ std::string_view direction_named(std::string_view name) {
 
 }  // namespace
 
-Made make_text(const BuiltinCall& call, NodeTree& tree) {
+namespace {
+
+Made make(const BuiltinCall& call, NodeTree& tree, std::string_view halign,
+          std::string_view valign) {
   enum : size_t { kText, kSize, kFont, kDirection, kLanguage, kScript, kHalign, kValign, kSpacing };
   const auto& given = call.parameters;
   const std::string_view text = text_or(given[kText], "");
@@ -44,10 +48,29 @@ Made make_text(const BuiltinCall& call, NodeTree& tree) {
   add_raw(tree, "direction", direction);
   add_raw(tree, "language", text_or(given[kLanguage], "en"));
   if (!script.empty()) add_raw(tree, "script", script);
-  add_raw(tree, "halign", text_or(given[kHalign], "left"));
-  add_raw(tree, "valign", text_or(given[kValign], "baseline"));
+  add_raw(tree, "halign", text_or(given[kHalign], halign));
+  add_raw(tree, "valign", text_or(given[kValign], valign));
   add_fragments(tree, fragments_of(call));
   return Made::kNode;
+}
+
+}  // namespace
+
+Made make_text(const BuiltinCall& call, NodeTree& tree) {
+  return make(call, tree, "left", "baseline");
+}
+
+Made make_text_2026(const BuiltinCall& call, NodeTree& tree) {
+  constexpr std::string_view kNames[] = {"text",   "size",   "font",   "direction", "language",
+                                         "script", "halign", "valign", "spacing"};
+  for (size_t i = 0; i < std::size(kNames); ++i) {
+    const Value& value = call.parameters[i];
+    const bool is_number = kNames[i] == "size" || kNames[i] == "spacing";
+    const bool is_right = is_number ? value.is_number() : value.is_string();
+    if (is_given(value) && !is_right)
+      warn(call, wrong_type("text", kNames[i], is_number ? "number" : "string", value));
+  }
+  return make(call, tree, "default", "default");
 }
 
 }  // namespace language

@@ -18,9 +18,19 @@ using Matrix = std::array<std::array<double, 4>, 4>;  // by rows
 
 constexpr Matrix kIdentity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
-Made finish(NodeTree& tree, const Matrix& matrix) {
+/// Returns a matrix as a sum with zeros leaves it, where -0 is written as it is.
+Matrix without_negative_zeros(const BuiltinCall& call, Matrix matrix) {
+  if (!call.environment.dialect.writes_general_numbers) return matrix;
+  for (auto& row : matrix)
+    for (double& entry : row) entry += 0.0;
+  return matrix;
+}
+
+Made finish(const BuiltinCall& call, NodeTree& tree, const Matrix& matrix) {
   set_kind(tree, NodeKind::kMultmatrix);
-  add_numbers(tree, "", {matrix.front().data(), 16}, ArgumentStyle::kMatrix);
+  add_numbers(tree, "", {matrix.front().data(), 16},
+              call.environment.dialect.writes_general_numbers ? ArgumentStyle::kGeneralMatrix
+                                                              : ArgumentStyle::kMatrix);
   return Made::kNode;
 }
 
@@ -96,7 +106,7 @@ Made rotate_by_vector(const BuiltinCall& call, NodeTree& tree) {
   } else if (is_given(v)) {
     warn(call, "When parameter a is supplied as vector, v is ignored " + arguments);
   }
-  return finish(tree, times_identity(rotation(angles_deg)));
+  return finish(call, tree, without_negative_zeros(call, times_identity(rotation(angles_deg))));
 }
 
 }  // namespace
@@ -111,7 +121,7 @@ Made make_translate(const BuiltinCall& call, NodeTree& tree) {
     warn(call,
          "Unable to convert translate(" + shown(v) + ") parameter to a vec3 or vec2 of numbers");
   }
-  return finish(tree, matrix);
+  return finish(call, tree, without_negative_zeros(call, matrix));
 }
 
 Made make_scale(const BuiltinCall& call, NodeTree& tree) {
@@ -131,7 +141,7 @@ Made make_scale(const BuiltinCall& call, NodeTree& tree) {
   for (size_t row = 0; row < 3; ++row) {
     for (size_t column = 0; column < 3; ++column) matrix[row][column] *= factors[column];
   }
-  return finish(tree, matrix);
+  return finish(call, tree, matrix);
 }
 
 Made make_rotate(const BuiltinCall& call, NodeTree& tree) {
@@ -148,7 +158,9 @@ Made make_rotate(const BuiltinCall& call, NodeTree& tree) {
   } else if (!is_axis) {
     warn(call, "Problem converting rotate(..., v=" + shown(v) + ") parameter");
   }
-  return finish(tree, times_identity(rotation_about(is_angle ? a.number() : 0, axis)));
+  return finish(call, tree,
+                without_negative_zeros(
+                    call, times_identity(rotation_about(is_angle ? a.number() : 0, axis))));
 }
 
 Made make_mirror(const BuiltinCall& call, NodeTree& tree) {
@@ -167,7 +179,7 @@ Made make_mirror(const BuiltinCall& call, NodeTree& tree) {
       }
     }
   }
-  return finish(tree, matrix);
+  return finish(call, tree, matrix);
 }
 
 Made make_multmatrix(const BuiltinCall& call, NodeTree& tree) {
@@ -189,7 +201,7 @@ Made make_multmatrix(const BuiltinCall& call, NodeTree& tree) {
       }
     }
   }
-  return finish(tree, matrix);
+  return finish(call, tree, matrix);
 }
 
 }  // namespace language

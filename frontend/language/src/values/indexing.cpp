@@ -62,7 +62,29 @@ Value operators::index(const Value& container, const Value& index) {
   }
 }
 
-Value member(const Value& container, std::string_view name) {
+namespace {
+
+/// Returns the elements of a vector that the letters of a name mean, if all are of one alphabet.
+Value swizzle(const Value& vector, std::string_view name) {
+  for (const std::string_view letters : {"xyzw", "rgba"}) {
+    if (name.empty() || name.size() > letters.size() ||
+        name.find_first_not_of(letters) != name.npos)
+      continue;
+    const auto selected = [&](char letter) {
+      return element(vector, static_cast<uint32_t>(letters.find(letter)));
+    };
+    if (name.size() == 1) return selected(name.front());
+    Value elements = make_vector(name.size());
+    for (const char letter : name) append_element(elements, selected(letter));
+    return elements;
+  }
+  return Value::undef();
+}
+
+}  // namespace
+
+Value member(const Value& container, std::string_view name, const Dialect& dialect) {
+  if (container.is_vector() && dialect.has_swizzles) return swizzle(container, name);
   if (container.is_vector() && name.size() == 1) {
     const size_t position = std::string_view("xyz").find(name);
     if (position != std::string_view::npos)

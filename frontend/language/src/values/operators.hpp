@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/dialect.hpp"
 #include "language/value.hpp"
 
 namespace language {
@@ -69,6 +70,6 @@ inline Value element_at(const Value& container, const Value& index) {
 }
 
 /// Returns container.name, or undef.
-Value member(const Value& container, std::string_view name);
+Value member(const Value& container, std::string_view name, const Dialect& dialect);
 
 }  // namespace language
