@@ -110,6 +110,15 @@ TEST(Modules, FillRoofAndColor) {
   EXPECT_EQ(tree_2021("color();"), "color([-1, -1, -1, 1]);\n\n");
 }
 
+TEST(Modules, TakeAllParametersUnnamed) {
+  expect_node("offset(1, 2, true)", "offset(r = 1, $fn = 0, $fa = 12, $fs = 2)");
+  EXPECT_EQ(said_2026("projection(true, 2);"), "");
+  EXPECT_EQ(said_2026("e = function(x) echo(x) 1; cube(e(1), e(2), e(3)) sphere();"),
+            "ECHO: 1\nECHO: 2\nECHO: 3\n"
+            "WARNING: module cube() does not support child modules in file design.scad, line 1\n"
+            "WARNING: Too many unnamed arguments supplied in file design.scad, line 1\n");
+}
+
 TEST(Modules, MatricesAreWrittenByG) {
   expect_node("translate([100.0625, 1e-6, -0])",
               "multmatrix([[1, 0, 0, 100.062], [0, 1, 0, 1e-06], [0, 0, 1, 0], [0, 0, 0, 1]])");

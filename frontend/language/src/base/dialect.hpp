@@ -64,6 +64,8 @@ class Dialect {
   const bool fills_free_parameters = row(false, true);
   /// Whether the last default counts of a parameter that is listed twice; else the first.
   const bool takes_last_default = row(true, false);
+  /// Whether unnamed arguments cannot fill some of a builtin module's parameters.
+  const bool has_named_only_parameters = row(true, false);
   /// Whether a block is evaluated when the children of its call are, each time; else before the
   /// call's arguments, which see its variables.
   const bool has_blocks_at_children = row(false, true);

@@ -144,7 +144,8 @@ class CodeCompiler {
   // module_calls.cpp
   void module_call(const ModuleCall& call, Found<ModuleEntry> found);
   void builtin_module(const ModuleCall& call, const ModuleShape& module);
-  void builtin_arguments(const ModuleCall& call, const ModuleShape& module);
+  void builtin_arguments(const ModuleCall& call, const ModuleShape& module,
+                         std::optional<uint32_t> refused = std::nullopt);
   void repeated_argument(const ModuleCall& call, const ModuleShape& module, uint32_t site);
   BlockEntry* save_block(const ModuleCall& call, const Hiding& hiding);
   void children_call(const ModuleCall& call, bool is_child);

@@ -79,9 +79,11 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   site.successor = module.successor;
   const bool is_refused = !children.calls.empty() || (!children.assignments.empty() &&
                                                       compiler_.dialect().refuses_assignments);
-  if (module.refuses_children && is_refused) out_.emit(Op::kRefuseChildren, call.place, 0, number);
+  const bool refuses = module.refuses_children && is_refused;
+  if (refuses && !compiler_.dialect().has_arguments_first)
+    out_.emit(Op::kRefuseChildren, call.place, 0, number);
   if (!module.successor.empty()) out_.emit(Op::kSuccessor, call.place, 0, number);
-  builtin_arguments(call, module);
+  builtin_arguments(call, module, refuses ? std::optional(number) : std::nullopt);
   ScopeLayout* const outer = scope_;
   if (has_block) {
     ScopeLayout& layout = open_scope(true, call.place);
@@ -109,7 +111,9 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   drop_to(start, call.place);
 }
 
-void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& module) {
+/// `refused`: the node site of children that are refused, which is said where arguments come first.
+void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& module,
+                                     std::optional<uint32_t> refused) {
   const ArgumentPlan plan = compiler_.plan_builtin(module, call.arguments, call.place);
   const bool is_first = compiler_.dialect().has_arguments_first;
   if (!is_first) warn_of_arguments(plan, call.place, false);
@@ -140,6 +144,7 @@ void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& 
       out_.emit(Op::kPop, argument.place, -1);
     }
   }
+  if (is_first && refused) out_.emit(Op::kRefuseChildren, call.place, 0, *refused);
   if (is_first) warn_of_arguments(plan, call.place, false);
   for (const auto& [name, slot] : late) {
     out_.emit(Op::kLocal, call.place, 1, slot);

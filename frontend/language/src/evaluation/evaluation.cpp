@@ -20,12 +20,14 @@ namespace {
 // a recursion can say more than any memory holds.
 constexpr size_t kMostMessageBytes = size_t{64} << 20;
 
-ModuleShape shape_of(const BuiltinModule& module, uint32_t index, NameTable& names) {
+ModuleShape shape_of(const BuiltinModule& module, uint32_t index, NameTable& names,
+                     const Dialect& dialect) {
   ModuleShape shape{};
   shape.index = index;
   for (const auto& list : {module.positional, module.named_only})
     for (const std::string_view name : list) shape.parameters.push_back(names.intern(name));
-  shape.positional = module.positional.size();
+  shape.positional =
+      dialect.has_named_only_parameters ? module.positional.size() : shape.parameters.size();
   shape.takes_children = module.children == ChildRule::kTakes;
   shape.refuses_children = module.children == ChildRule::kRefuses;
   shape.successor = module.successor;
@@ -44,7 +46,7 @@ Builtins builtin_shapes(NameTable& names, const Dialect& dialect) {
   }
   index = 0;
   for (const BuiltinModule& module : builtin_modules(dialect.version)) {
-    builtins.modules[names.intern(module.name)] = shape_of(module, index, names);
+    builtins.modules[names.intern(module.name)] = shape_of(module, index, names, dialect);
     ++index;
   }
   return builtins;
