@@ -70,13 +70,12 @@ TEST(Modules, TextsAndFiles) {
       "= 12, $fs = 2)");
   expect_warning("text(5)", "text(..., text=5) Invalid type: expected string, found number");
   expect_node(
-      "import(\"/a.svg\", id = \"q\", layer = 5, center = true)",
-      "import(file = \"/a.svg\", id = \"q\", layer = \"5\", origin = [0, 0], dpi = 72, scale "
+      "import(\"a.svg\", id = \"q\", layer = 5, center = true)",
+      "import(file = \"a.svg\", id = \"q\", layer = \"5\", origin = [0, 0], dpi = 72, scale "
       "= 1, center = true, convexity = 1, $fn = 0, $fa = 12, $fs = 2, timestamp = 0)");
-  expect_node(
-      "import(\"/a.stl\")",
-      "import(file = \"/a.stl\", origin = [0, 0], scale = 1, center = false, convexity = 1, "
-      "$fn = 0, $fa = 12, $fs = 2, timestamp = 0)");
+  expect_node("import(\"a.stl\")",
+              "import(file = \"a.stl\", origin = [0, 0], scale = 1, center = false, convexity = 1, "
+              "$fn = 0, $fa = 12, $fs = 2, timestamp = 0)");
   expect_warning("text(\"a\") cube()", "module text() does not support child modules");
 }
 

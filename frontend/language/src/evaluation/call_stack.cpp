@@ -144,8 +144,8 @@ void CallStack::say_traces() {
 }
 
 std::string CallStack::call_text(const Frame& frame) {
-  std::string text = text_of(frame.module->name) + "(";
-  const ParameterList& parameters = frame.module->parameters;
+  std::string text = text_of(frame.callee->name) + "(";
+  const ParameterList& parameters = frame.callee->parameters;
   for (uint32_t slot = 0; slot < parameters.declared_slots; ++slot) {
     if (slot > 0) text += ", ";
     text += text_of(parameters.slot_names[slot]) + " = ";

@@ -47,11 +47,10 @@ struct Frame {
   uint32_t activation;  // of the user module that the code stands in, or kNoActivation
   int64_t memory;       // that values took when the frame was made, in bytes
   FrameKind kind;
-  uint32_t rounds = 0;  // of tail calls
-  const FunctionEntry* function = nullptr;
-  Name called_as = kNoName;  // of a function value: the name in its call
-  Place call{};              // of a function value, or a user module
-  const ModuleEntry* module = nullptr;
+  uint32_t rounds = 0;               // of tail calls
+  const Callable* callee = nullptr;  // of a function, or a user module
+  Name called_as = kNoName;          // of a function value: the name in its call
+  Place call{};                      // of a function value, or a user module
 };
 
 /// Owns what calls hold, innermost on top: frames, values, scopes, `$` names, and the records of

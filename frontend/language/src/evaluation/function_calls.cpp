@@ -58,7 +58,7 @@ void FunctionCalls::call(const CallSite& site, bool is_tail) {
   } else {
     stack_.push(code, stack_.values.size() - site.slots, scope, FrameKind::kFunction);
   }
-  stack_.frame().function = &function;
+  stack_.frame().callee = &function;
   for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.values.push(Value::unset());
 }
 
@@ -72,11 +72,11 @@ void FunctionCalls::return_value() {
 void FunctionCalls::check_rounds() {
   if (!stack_.loops_too_long()) return;
   const Frame& frame = stack_.frame();
-  const bool is_named = frame.called_as == kNoName && frame.function->name != kNoName;
-  const Name name = is_named ? frame.function->name : frame.called_as;
+  const bool is_named = frame.called_as == kNoName && frame.callee->name != kNoName;
+  const Name name = is_named ? frame.callee->name : frame.called_as;
   stack_.jump(0);  // a tail call is no call in the traces
   stack_.fail_recursion("function", name == kNoName ? "" : stack_.text_of(name),
-                        is_named ? frame.function->place : frame.call);
+                        is_named ? frame.callee->place : frame.call);
 }
 
 void FunctionCalls::tail_jump(uint32_t slots, uint32_t target) {
@@ -282,7 +282,7 @@ void DynamicCalls::call_function(const DynamicCall& site, FunctionEntry& functio
     stack_.frame().trail = mark;
   }
   Frame& frame = stack_.frame();
-  frame.function = &function;
+  frame.callee = &function;
   frame.call = call;
   frame.called_as = is_closure ? site.name : kNoName;
 }

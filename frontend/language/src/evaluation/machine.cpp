@@ -56,7 +56,7 @@ ValueType Machine::type_of(const Expression& expression) {
   if (constant.is_set()) return constant.type();
   FunctionEntry& function = compiler_.add_expression(expression);
   stack_.push(compiler_.code_of(function), stack_.scopes.make(nullptr, 0), FrameKind::kFunction);
-  stack_.frame().function = &function;
+  stack_.frame().callee = &function;
   run_guarded();
   return stack_.values.pop().type();
 }

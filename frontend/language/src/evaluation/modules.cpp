@@ -113,7 +113,7 @@ void ModuleCalls::call(const CallSite& site) {
   const Code& code = compiler_.code_of(module);
   stack_.push(code, base, scope, FrameKind::kModule,
               static_cast<uint32_t>(activations_.size() - 1));
-  stack_.frame().module = &module;
+  stack_.frame().callee = &module;
   stack_.frame().call = module.place;
   for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.values.push(Value::unset());
 }
