@@ -111,19 +111,21 @@ TEST_F(Following, EscapeStopsWhatTakesLong) {
 }
 
 TEST_F(Following, EscapeStopsAPictureUntilItIsAskedForAgain) {
-  const std::string start = "for (i = [1 : ";
-  const std::string rest = "]) %translate(rands(-20, 20, 3, i)) sphere(15);";
+  const std::string start = "n = ";
+  const std::string rest =
+      "; for (j = [1 : ceil(n / 8000)], i = [1 : min(n, 8000)]) "
+      "%translate(rands(-20, 20, 3, i + j / 99)) sphere(15);";
   const std::string design = folder_.write("a.scad", start + "9" + rest);
   open(design, {"--renderer=cpu"});
   next_of(9);
   const Picture good = shown();
-  folder_.write("a.scad", start + "8000" + rest);  // takes some seconds
+  folder_.write("a.scad", start + "40000" + rest);  // takes some seconds
   const Area area = free_area();
   EXPECT_TRUE(wait_until([&] { return part(shown(), area) != part(good, area); }));
   key("Escape");
   expect_shown(good, area);
   key("F5");
-  next_of(8000);
+  next_of(40000);
 }
 
 TEST_F(Following, EchoesOfAReadingArePrintedOnce) {

@@ -3,7 +3,7 @@
 namespace language {
 
 const Dialect& dialect_of(LanguageVersion version) {
-  static constexpr Dialect k2021(LanguageVersion::k2021), k2026(LanguageVersion::k2026);
+  static const Dialect k2021(LanguageVersion::k2021), k2026(LanguageVersion::k2026);
   return version == LanguageVersion::k2021 ? k2021 : k2026;
 }
 

@@ -130,12 +130,12 @@ Made make_typed_import(const BuiltinCall& call, NodeTree& tree) {
 }
 
 Made make_surface(const BuiltinCall& call, NodeTree& tree) {
-  enum : size_t { kFile, kCenter, kConvexity, kInvert };
+  enum SurfaceParameter : size_t { kMap, kCentered, kSurfaceConvexity, kInvert };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kSurface);
-  const NamedFile file = call.environment.files.find(str_or_nothing(given[kFile]));
+  const NamedFile file = call.environment.files.find(str_or_nothing(given[kMap]));
   add_escaped(tree, "file", file.path);
-  add_bool(tree, "center", is_true_bool(given[kCenter]));
+  add_bool(tree, "center", is_true_bool(given[kCentered]));
   add_bool(tree, "invert", is_true_bool(given[kInvert]));
   add_integer(tree, "timestamp", file.timestamp);
   return Made::kNode;
