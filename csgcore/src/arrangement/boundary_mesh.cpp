@@ -161,8 +161,7 @@ BoundaryMesh mesh_of_part(std::span<const TriangleSet> all, const SeparatePart& 
   for (const uint32_t operand : part.operands) operands.push_back(&all[operand]);
   Facets facets = facets_on_grid(operands);
   const std::vector<bool> may_cross_itself = find_simple_surfaces(operands, facets);
-  const bool is_simple =
-      part.tokens.size() == 1 && !may_cross_itself[0] && facets.touches.empty();
+  const bool is_simple = part.tokens.size() == 1 && !may_cross_itself[0] && facets.touches.empty();
   if (is_simple) return mesh_of_simple(facets);
   const CellTree cells(facets, part.tokens, may_cross_itself);
   const Sheets sheets = sheets_of(facets, cells.pairs());

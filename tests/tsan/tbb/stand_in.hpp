@@ -205,6 +205,11 @@ class task_arena {
 
 namespace this_task_arena {
 inline int max_concurrency() { return stand_in::concurrency; }
+/// A thread takes no other task while it waits here: nothing is to be kept away from it.
+template <class Work>
+auto isolate(const Work& work) {
+  return work();
+}
 }  // namespace this_task_arena
 
 }  // namespace tbb
