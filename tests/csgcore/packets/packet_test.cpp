@@ -335,8 +335,8 @@ TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
     const SingleList list(target.canonical, false);
     PacketWorkspace workspace;
     PacketHits hits;
-    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceParameters{}, nullptr,
-                 workspace, hits);
+    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceParameters{},
+                 nullptr, workspace, hits);
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
       const bool crosses = segments.start[lane] < segments.end[lane];
       ASSERT_EQ((hits.hits >> lane & 1) != 0, crosses);
@@ -537,8 +537,8 @@ Bytes bytes_of_all() {
       }
       PacketWorkspace workspace;
       PacketHits hits;
-      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceParameters{}, nullptr, workspace,
-                   hits);
+      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceParameters{}, nullptr,
+                   workspace, hits);
       bytes.add(&hits.hits, 1);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
         if (!(hits.hits >> lane & 1)) continue;

@@ -71,7 +71,8 @@ class Follower {
  public:
   Follower(std::string path, frontend::DesignFileOptions options)
       : path_(std::move(path)), options_(std::move(options)) {
-    options_.import.solids = std::make_shared<frontend::SolidPool>(frontend::SolidPool::Keeps::kAll);
+    options_.import.solids =
+        std::make_shared<frontend::SolidPool>(frontend::SolidPool::Keeps::kAll);
     options_.cache = std::make_shared<language::EvaluationCache>();
   }
   DesignVersion read(const frontend::DesignInputs& inputs) {
