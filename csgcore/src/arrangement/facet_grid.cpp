@@ -132,6 +132,12 @@ void find_touches(Facets& result, std::vector<Facet> flat) {
 
 }  // namespace
 
+bool Facets::are_in_one_plane(uint32_t a, uint32_t b) const {
+  const GridPlane plane_of_a = plane(a);
+  return std::ranges::all_of(
+      corners(b), [&](const GridPoint& corner) { return side(plane_of_a, corner) == 0; });
+}
+
 Facets facets_on_grid(Surfaces operands) {
   Facets result;
   set_grid(result, operands);

@@ -44,6 +44,7 @@ struct Facets {
     const auto [a, b, c] = corners(facet);
     return plane_through(a, b, c);
   }
+  bool are_in_one_plane(uint32_t a, uint32_t b) const;
   /// The largest coordinates may have been rounded up beyond double's range.
   Vec3 to_world(const Vec3& grid) const {
     constexpr double kLargest = std::numeric_limits<double>::max();

@@ -173,9 +173,7 @@ ArrangedPoint Pieces::point(uint32_t number) const {
 }
 
 bool Pieces::are_in_one_plane(const Piece& a, const Piece& b) const {
-  const GridPlane plane = facets_.plane(facets(a).front());
-  return std::ranges::all_of(facets_.corners(facets(b).front()),
-                             [&](const GridPoint& corner) { return side(plane, corner) == 0; });
+  return facets_.are_in_one_plane(facets(a).front(), facets(b).front());
 }
 
 int Pieces::axis(const Piece& piece) const {

@@ -18,8 +18,7 @@ struct SeparatePart {
 
 /// Divides the operands of the union that the tree is at planes across the axes on which none of
 /// them lies, so that the solid is the union of the parts, of which no two touch. A tree that is no
-/// union is one part. They are in the order of their
-/// first operands. One without any is left out.
+/// union is one part. Parts are in the order of their first operands; none is empty.
 std::vector<SeparatePart> separate_parts(std::span<const TriangleSet> operands,
                                          const CsgTree& tree);
 

@@ -5,7 +5,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 #include <map>
 
 #include "arrangement/disjoint_sets.hpp"
@@ -117,19 +117,13 @@ class SheetMaker {
     for (size_t i = 0; i < all.size(); ++i) {
       const bool is_alone = (i == 0 || ends(all[i - 1]) != ends(all[i])) &&
                             (i + 1 == all.size() || ends(all[i + 1]) != ends(all[i]));
-      if (is_alone || are_in_one_plane(all[i].facet, all[i].other)) continue;
+      if (is_alone || facets_.are_in_one_plane(all[i].facet, all[i].other)) continue;
       const auto& [low, high, facet, other] = all[i];
       const PointName start = corner_name(low);
       const PointName end = corner_name(high);
       traces_.push_back({kNoPlace, facet, other, start, end, {low, high}});
       traces_.push_back({kNoPlace, other, facet, start, end, {low, high}});
     }
-  }
-
-  bool are_in_one_plane(uint32_t facet, uint32_t other) const {
-    const GridPlane plane = facets_.plane(facet);
-    return std::ranges::all_of(facets_.corners(other),
-                               [&](const GridPoint& point) { return side(plane, point) == 0; });
   }
 
   uint32_t plane_of(uint32_t facet) const { return planes_.find_only(facet); }
@@ -143,11 +137,11 @@ class SheetMaker {
   void add_crossing(const PlacedFacet& t, const PlacedFacet& s, Found& found) const {
     const bool is_one_operand =
         facets_.facets[t.number].operand == facets_.facets[s.number].operand;
-    std::vector<uint32_t> common;
-    if (is_one_operand) {
-      std::ranges::copy_if(t.names, std::back_inserter(common), [&](uint32_t name) {
-        return std::ranges::find(s.names, name) != s.names.end();
-      });
+    std::array<uint32_t, 3> common{};
+    size_t commons = 0;
+    for (const uint32_t name : t.names) {
+      const bool is_common = is_one_operand && std::ranges::find(s.names, name) != s.names.end();
+      if (is_common) common[commons++] = name;
     }
     const FacetCrossing crossing = crossing_of(t, s);
     if (crossing.kind == FacetCrossing::Kind::kOverlap) {
@@ -155,7 +149,7 @@ class SheetMaker {
       return;
     }
     // Neighbours of one surface meet in what they have in common.
-    if (common.size() >= 2) {
+    if (commons >= 2) {
       const auto [low, high] = std::minmax(common[0], common[1]);
       found.common.push_back({low, high, t.number, s.number});
       return;
@@ -166,7 +160,7 @@ class SheetMaker {
       found.traces.push_back(touch(at.facet, at.point));
     }
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
-    if (common.size() == 1 && crossing.start == crossing.end) return;
+    if (commons == 1 && crossing.start == crossing.end) return;
     const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
     found.traces.push_back({kNoPlace, t.number, s.number, start, end, edge_of_s});
     found.traces.push_back({kNoPlace, s.number, t.number, start, end, edge_of_t});
