@@ -49,7 +49,8 @@ double read_dpi(const BuiltinCall& call, const Value& dpi, const Value& origin) 
 }
 
 /// The parameters of import().
-enum ImportParameter : size_t {
+namespace imported {
+enum Parameter : size_t {
   kFile,
   kLayer,
   kConvexity,
@@ -63,8 +64,10 @@ enum ImportParameter : size_t {
   kDpi,
   kId,  // in 2026
 };
+}  // namespace imported
 
 Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
+  using namespace imported;
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kImport);
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
@@ -94,6 +97,7 @@ Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
 }  // namespace
 
 Made make_import_2026(const BuiltinCall& call, NodeTree& tree) {
+  using namespace imported;
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kImport);
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
@@ -130,7 +134,7 @@ Made make_typed_import(const BuiltinCall& call, NodeTree& tree) {
 }
 
 Made make_surface(const BuiltinCall& call, NodeTree& tree) {
-  enum SurfaceParameter : size_t { kMap, kCentered, kSurfaceConvexity, kInvert };
+  enum : size_t { kMap, kCentered, kConvexity, kInvert };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kSurface);
   const NamedFile file = call.environment.files.find(str_or_nothing(given[kMap]));
