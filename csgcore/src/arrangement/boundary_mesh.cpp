@@ -110,11 +110,13 @@ class BoundaryMaker {
   BoundaryMesh mesh() const {
     BoundaryMesh result;
     std::vector<uint32_t> number_of(pieces_.point_count(), kNoPlace);
-    std::vector<bool> may_touch;  // by vertex
+    std::vector<uint32_t> point_of;  // by vertex
+    std::vector<bool> may_touch;     // by vertex
     const auto number = [&](uint32_t point) {
       if (number_of[point] == kNoPlace) {
         number_of[point] = static_cast<uint32_t>(result.vertices.size());
         result.vertices.push_back(facets_.to_world(pieces_.point(point).position));
+        point_of.push_back(point);
         may_touch.push_back(pieces_.is_in_sheet(point));
       }
       return number_of[point];
@@ -125,7 +127,13 @@ class BoundaryMaker {
       if (!may_cross_itself_[operand]) continue;
       for (const uint32_t vertex : result.triangles.back()) may_touch[vertex] = true;
     }
-    part_touching_faces(result, may_touch);
+    make_manifold(result, may_touch, [&](uint32_t a, uint32_t b, uint32_t c) {
+      const std::array<ArrangedPoint, 3> points{
+          pieces_.point(point_of[a]), pieces_.point(point_of[b]), pieces_.point(point_of[c])};
+      constexpr std::array kAxes{0, 1, 2};
+      return std::ranges::all_of(
+          kAxes, [&](int axis) { return turn(points[0], points[1], points[2], axis) == 0; });
+    });
     return result;
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <set>
 
 #include "arrangement/disjoint_sets.hpp"
@@ -23,8 +24,8 @@ struct HalfEdge {
 
 class Parting {
  public:
-  Parting(BoundaryMesh& mesh, const std::vector<bool>& may_touch)
-      : mesh_(mesh), may_touch_(may_touch) {}
+  Parting(BoundaryMesh& mesh, const std::vector<bool>& may_touch, const AreOnLine& are_on_line)
+      : mesh_(mesh), may_touch_(may_touch), are_on_line_(are_on_line) {}
 
   void run() {
     for (uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
@@ -34,23 +35,11 @@ class Parting {
       }
       place_of_.push_back(i);
     }
-    std::vector<HalfEdge> edges;
-    for (uint32_t i = 0; i < place_of_.size(); ++i) {
-      for (uint32_t j = 0; j < 3; ++j) {
-        const uint32_t from = vertex(i, j);
-        const uint32_t to = vertex(i, j + 1);
-        if (!may_touch_[from] && !may_touch_[to]) continue;
-        edges.push_back({std::min(from, to), std::max(from, to), i, j});
-      }
-    }
-    tbb::parallel_sort(edges.begin(), edges.end());
+    std::vector<HalfEdge> edges = sorted_edges();
+    while (close_junctions(edges)) edges = sorted_edges();
     DisjointSets fans(3 * place_of_.size());  // of corners
     for (size_t begin = 0; begin < edges.size();) {
-      size_t end = begin + 1;
-      while (end < edges.size() && edges[end].low == edges[begin].low &&
-             edges[end].high == edges[begin].high) {
-        ++end;
-      }
+      const size_t end = end_of_equal(edges, begin);
       if (end - begin == 2) {
         join(fans, edges[begin], edges[begin + 1]);
       } else {
@@ -71,6 +60,93 @@ class Parting {
   static uint32_t corner_of(const HalfEdge& edge, uint32_t beyond) {
     return 3 * edge.triangle + (edge.corner + beyond) % 3;
   }
+  std::vector<HalfEdge> sorted_edges() const {
+    std::vector<HalfEdge> edges;
+    for (uint32_t i = 0; i < place_of_.size(); ++i) {
+      for (uint32_t j = 0; j < 3; ++j) {
+        const uint32_t from = vertex(i, j);
+        const uint32_t to = vertex(i, j + 1);
+        if (!may_touch_[from] && !may_touch_[to]) continue;
+        edges.push_back({std::min(from, to), std::max(from, to), i, j});
+      }
+    }
+    tbb::parallel_sort(edges.begin(), edges.end());
+    return edges;
+  }
+
+  /// Returns where the edges with the ends of edges[begin] end.
+  static size_t end_of_equal(const std::vector<HalfEdge>& edges, size_t begin) {
+    size_t end = begin + 1;
+    while (end < edges.size() && edges[end].low == edges[begin].low &&
+           edges[end].high == edges[begin].high) {
+      ++end;
+    }
+    return end;
+  }
+
+  bool is_rising(const HalfEdge& edge) const {
+    return vertex(edge.triangle, edge.corner) == edge.low;
+  }
+  uint32_t start(const HalfEdge& edge) const { return is_rising(edge) ? edge.low : edge.high; }
+  uint32_t end(const HalfEdge& edge) const { return is_rising(edge) ? edge.high : edge.low; }
+
+  /// Returns the edges, by their starts, that more triangles pass one way than the other.
+  std::multimap<uint32_t, HalfEdge> open_edges(const std::vector<HalfEdge>& edges) const {
+    std::multimap<uint32_t, HalfEdge> result;
+    for (size_t begin = 0; begin < edges.size();) {
+      const size_t end = end_of_equal(edges, begin);
+      std::vector<HalfEdge> more;
+      for (size_t i = begin; i < end; ++i) {
+        if (more.empty() || is_rising(more.back()) == is_rising(edges[i])) {
+          more.push_back(edges[i]);
+        } else {
+          more.pop_back();
+        }
+      }
+      for (const HalfEdge& edge : more) result.emplace(start(edge), edge);
+      begin = end;
+    }
+    return result;
+  }
+
+  /// Where faces on both sides of a straight edge have different points on it, divides their
+  /// triangles there, each at most once. Returns whether there were any.
+  bool close_junctions(const std::vector<HalfEdge>& edges) {
+    std::multimap<uint32_t, HalfEdge> open = open_edges(edges);
+    std::set<uint32_t> divided;  // triangles
+    while (!open.empty()) {
+      std::vector<HalfEdge> way{open.begin()->second};
+      open.erase(open.begin());
+      const uint32_t first = start(way[0]);
+      const uint32_t second = end(way[0]);
+      while (end(way.back()) != first) {
+        auto [at, last] = open.equal_range(end(way.back()));
+        while (at != last && !are_on_line_(first, second, end(at->second))) ++at;
+        if (at == last) break;
+        way.push_back(at->second);
+        open.erase(at);
+      }
+      if (end(way.back()) != first) continue;
+      for (const HalfEdge& edge : way) {
+        for (const HalfEdge& other : way) {
+          if (divided.contains(edge.triangle) || !is_within(start(other), edge)) continue;
+          divided.insert(edge.triangle);
+          divide(edge, start(other), 0);
+        }
+      }
+    }
+    return !divided.empty();
+  }
+
+  /// Returns whether a point on the edge's line lies between its ends.
+  bool is_within(uint32_t point, const HalfEdge& edge) const {
+    const Vec3 low = mesh_.vertices[edge.low];
+    const Vec3 high = mesh_.vertices[edge.high];
+    const Vec3 at = mesh_.vertices[point];
+    return point != edge.low && point != edge.high && glm::dot(at - low, high - low) > 0 &&
+           glm::dot(at - high, low - high) > 0;
+  }
+
   /// The edges run in opposite directions.
   static void join(DisjointSets& fans, const HalfEdge& a, const HalfEdge& b) {
     fans.join(corner_of(a, 0), corner_of(b, 1));
@@ -89,9 +165,6 @@ class Parting {
     };
     const Vec3 zero = glm::normalize(across(edges.front()));
     const Vec3 quarter = glm::cross(along, zero);
-    const auto is_rising = [&](const HalfEdge& edge) {
-      return vertex(edge.triangle, edge.corner) == edge.low;
-    };
     struct Turned {
       double angle;
       HalfEdge edge;
@@ -184,14 +257,16 @@ class Parting {
 
   BoundaryMesh& mesh_;
   const std::vector<bool>& may_touch_;
+  const AreOnLine& are_on_line_;
   std::vector<uint32_t> place_of_;                // triangles of the mesh that have such a vertex
   std::vector<std::array<HalfEdge, 2>> crowded_;  // of edges with more than two triangles
 };
 
 }  // namespace
 
-void part_touching_faces(BoundaryMesh& mesh, const std::vector<bool>& may_touch) {
-  Parting(mesh, may_touch).run();
+void make_manifold(BoundaryMesh& mesh, const std::vector<bool>& may_touch,
+                   const AreOnLine& are_on_line) {
+  Parting(mesh, may_touch, are_on_line).run();
 }
 
 }  // namespace csgcore
