@@ -175,6 +175,55 @@ ClipperLib::EndType end_type(LineEnds ends) {
   return ClipperLib::etOpenSquare;
 }
 
+/// Returns whether an edge from one corner of a polygon to a later one may take the place of those
+/// between them.
+class Shortcuts {
+ public:
+  Shortcuts(const Polygon& polygon, double tolerance) : polygon_(polygon), tolerance_(tolerance) {
+    visit_edges(polygon, [&](const Vec2& a, const Vec2& b) {
+      edges_.push_back(b - a);
+      lengths_.push_back(glm::length(b - a));
+    });
+  }
+
+  /// Returns the last corner, from `first` + 2 on, that an edge may lead to; else the next one. The
+  /// corner after the last is the first.
+  size_t end(size_t first) const {
+    constexpr size_t kMostEdges = 64;  // since each is asked for all corners before it
+    const size_t most = std::min(polygon_.size(), first + kMostEdges);
+    size_t last = first + 1;
+    while (last < most && spans(first, last + 1)) ++last;
+    return last;
+  }
+
+ private:
+  bool spans(size_t first, size_t end) const {
+    // An arc's edges differ from its chord by up to half of what they turn by: a 24th of a turn,
+    // and somewhat less where edges are not small.
+    constexpr double kLeastCosine = 0.99255;  // of 7°
+    const Vec2 from = polygon_[first];
+    const Vec2 way = polygon_[end % polygon_.size()] - from;
+    const double length = glm::length(way);
+    for (const size_t edge : {first, end - 1}) {
+      if (!(glm::dot(edges_[edge], way) >= kLeastCosine * lengths_[edge] * length)) return false;
+    }
+    double along = 0;
+    for (size_t i = first + 1; i < end; ++i) {
+      const Vec2 to = polygon_[i] - from;
+      const double next = glm::dot(to, way);
+      const bool is_near = std::abs(way.x * to.y - way.y * to.x) <= tolerance_ * length;
+      if (!is_near || !(next > along)) return false;
+      along = next;
+    }
+    return true;
+  }
+
+  const Polygon& polygon_;
+  const double tolerance_;
+  std::vector<Vec2> edges_;
+  std::vector<double> lengths_;
+};
+
 }  // namespace
 
 std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords) {
@@ -298,6 +347,30 @@ SimplePolygons without_slight_corners(SimplePolygons polygons) {
     if (path.front().size() >= 3) polygon = std::move(grid.polygons(path).front());
   }
   return polygons;
+}
+
+SimplePolygons with_fewer_corners(SimplePolygons polygons, double tolerance) {
+  SimplePolygons result;
+  for (const Polygon& polygon : polygons) {
+    const Shortcuts shortcuts(polygon, tolerance);
+    Polygon fewer;
+    for (size_t i = 0; i < polygon.size(); i = shortcuts.end(i)) fewer.push_back(polygon[i]);
+    result.push_back(fewer.size() < 3 ? polygon : std::move(fewer));
+  }
+  if (edge_count(result) == edge_count(polygons)) return polygons;
+  Grid grid(reach_of(bounds_of(result)));
+  const ClipperLib::Paths paths = grid.paths(result);
+  const ClipperLib::Paths simple = united(paths, ClipperLib::pftNonZero);
+  const auto area = [](const ClipperLib::Paths& all) {
+    double sum = 0;
+    for (const ClipperLib::Path& path : all) sum += ClipperLib::Area(path);
+    return sum;
+  };
+  // What crosses runs around some of its area backwards.
+  constexpr double kRounding = 1e-9;
+  const bool is_simple =
+      simple.size() == paths.size() && area(simple) - area(paths) <= kRounding * area(simple);
+  return is_simple ? result : polygons;
 }
 
 std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures) {

@@ -37,6 +37,12 @@ std::optional<Figure> cleaned(Outline outline);
 /// else is left stays as it is.
 SimplePolygons without_slight_corners(SimplePolygons polygons);
 
+/// Returns the polygons with fewer corners where they bend smoothly: an edge takes the place of
+/// several that turn by no more than one of 24 in a circle does, and whose corners are within
+/// `tolerance` of it. A turn that no such edge has stays as it is; so do all polygons if fewer
+/// corners would make them cross.
+SimplePolygons with_fewer_corners(SimplePolygons polygons, double tolerance);
+
 /// Returns figures whose union is that of `figures` with its holes filled; nothing if their edges
 /// cross too often. Curves that bound it on the outside stay what they are.
 std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures);

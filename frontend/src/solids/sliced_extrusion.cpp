@@ -18,14 +18,14 @@ double reach_of_figures(std::span<const Figure> figures) {
   return bounds.empty() ? 0 : std::max(glm::length(bounds.min), glm::length(bounds.max));
 }
 
-/// Sides that turn need triangles for each chord and each slice. A round outline with flat sides
-/// has as many chords as slices in a turn.
+/// A round outline with flat sides has at least as many chords as there are slices in a turn.
 Chords chords_for(const TwistedLayers& layers, const std::optional<double>& slices, double reach) {
-  constexpr double kMost = kSmoothChords;
-  if (!has_flat_sides(layers, reach)) return {kSmoothChords, kSmoothTolerance * reach};
+  const double tolerance = smooth_tolerance(layers, reach);
+  if (!has_flat_sides(layers, reach)) return {kSmoothChords, tolerance};
   const double turns = layers.turn() / kTurn;
-  const double in_a_turn = slices.value_or(1) / turns;
-  return {static_cast<int>(std::clamp(std::ceil(in_a_turn), kMost, double{kChordsOfCircle})), 0};
+  const auto in_a_turn =
+      static_cast<int>(std::min(std::ceil(slices.value_or(1) / turns), double{kChordsOfCircle}));
+  return {std::max(in_a_turn, kSmoothChords), tolerance, std::max(in_a_turn, Chords{}.fewest)};
 }
 
 }  // namespace

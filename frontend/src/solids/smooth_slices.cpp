@@ -86,13 +86,39 @@ size_t offset_of(const TwistedLayers& layers, int slices, const Polygon& polygon
   return bend(candidate) < bend(0) ? candidate : 0;
 }
 
-/// The sides of an outline without corners. A slice turns by as much as an edge does, or by a
-/// little more or less, so that each edge meets one of its own direction.
+/// Returns by how many edges an outline may turn in a slice. The sides of a slice lie between edges
+/// of one direction, whose distances from the axis must change evenly on the way.
+size_t most_edges_turned(const Polygon& polygon, double tolerance) {
+  std::vector<double> distances;
+  visit_edges(polygon, [&](const Vec2& a, const Vec2& b) {
+    distances.push_back((a.x * b.y - a.y * b.x) / glm::length(b - a));
+  });
+  const size_t count = distances.size();
+  const auto is_even = [&](size_t edges) {
+    for (size_t i = 0; i < count; ++i) {
+      const double ends = (distances[i] + distances[(i + edges) % count]) / 2;
+      const double middle =
+          (distances[(i + edges / 2) % count] + distances[(i + (edges + 1) / 2) % count]) / 2;
+      if (!(std::abs(middle - ends) <= tolerance)) return false;
+    }
+    return true;
+  };
+  size_t result = 1;
+  while (8 * result < count && is_even(result + 1)) ++result;
+  return result;
+}
+
+/// The sides of an outline without corners. A slice turns by as much as some of its edges do, or by
+/// a little more or less, so that each edge meets one of its own direction.
 std::optional<Slicing> round_slicing(const TwistedLayers& layers, double slices,
                                      const SimplePolygons& outline) {
-  size_t most = 0;
-  for (const Polygon& polygon : outline) most = std::max(most, polygon.size());
-  const double edges = layers.turn() / kTurn * static_cast<double>(most);
+  const double tolerance = smooth_tolerance(layers, reach_of(outline));
+  double in_a_turn = 0;
+  for (const Polygon& polygon : outline) {
+    in_a_turn = std::max(in_a_turn, static_cast<double>(polygon.size()) /
+                                        static_cast<double>(most_edges_turned(polygon, tolerance)));
+  }
+  const double edges = layers.turn() / kTurn * in_a_turn;
   Slicing result;
   result.slices = affordable_slices(std::max(slices, std::round(edges)), edge_count(outline));
   for (const Polygon& polygon : outline) {
@@ -105,10 +131,12 @@ std::optional<Slicing> round_slicing(const TwistedLayers& layers, double slices,
 
 Slicing between_images(const TwistedLayers& layers, double slices, SimplePolygons outline) {
   const double reach = reach_of(outline) * layers.largest_scale();
+  const double least = smooth_tolerance(layers, reach_of(outline));
+  outline = with_fewer_corners(std::move(outline), least);
   const size_t edges = edge_count(outline);
   const double most = std::max(kMostSmoothTriangles,
                                2 * static_cast<double>(edges) * affordable_slices(slices, edges));
-  for (double tolerance = kSmoothTolerance * reach; tolerance <= reach; tolerance *= 2) {
+  for (double tolerance = least; tolerance <= reach; tolerance *= 2) {
     const double wanted = std::max(slices, slices_within(layers, outline, reach, tolerance));
     Pieces pieces;
     for (const Polygon& polygon : outline) {
@@ -122,6 +150,10 @@ Slicing between_images(const TwistedLayers& layers, double slices, SimplePolygon
 }
 
 }  // namespace
+
+double smooth_tolerance(const TwistedLayers& layers, double reach) {
+  return kSmoothTolerance * std::max(reach * layers.largest_scale(), layers.height() / 2);
+}
 
 bool has_flat_sides(const TwistedLayers& layers, double reach) {
   constexpr double kLeastMotion = 4;

@@ -98,11 +98,52 @@ TEST(SmoothSlicing, OfAThreadJoinsEdgesOfTheSameDirection) {
   const Polygon circle = circle_polygon({{1, 0}, 10}, 120);
   const TwistedLayers layers{0, 10, -359};
   const Slicing slicing = smooth_slicing(layers, 60, {circle});
-  EXPECT_EQ(slicing.slices, 120);
+  EXPECT_EQ(slicing.slices, 60);
   EXPECT_EQ(slicing.outline.front(), circle);
-  EXPECT_EQ(slicing.offsets.front(), 119u);
+  EXPECT_EQ(slicing.offsets.front(), 118u);
   const Polygon hole(circle.rbegin(), circle.rend());
-  EXPECT_EQ(smooth_slicing(layers, 60, {hole}).offsets.front(), 1u);
+  EXPECT_EQ(smooth_slicing(layers, 60, {hole}).offsets.front(), 2u);
+}
+
+/// The largest distance from the sides, in the middle of the first slice, to a disc that turns with
+/// them.
+double error_of_sides(const TwistedLayers& layers, const Slicing& slicing, const Disc& disc) {
+  const Polygon& polygon = slicing.outline.front();
+  const double step = 1.0 / slicing.slices;
+  const Vec2 center = layers.point_at(step / 2, disc.center);
+  double worst = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 below = polygon[i];
+    const Vec2 above =
+        layers.point_at(step, polygon[(i + slicing.offsets.front()) % polygon.size()]);
+    worst = std::max(worst, std::abs(glm::length((below + above) / 2.0 - center) - disc.radius));
+  }
+  return worst;
+}
+
+TEST(SmoothSlicing, OfAThreadHasAsManySlicesAsItsShapeAsksFor) {
+  for (const double depth : {0.01, 0.1, 1.0, 3.0}) {
+    const Disc disc{{depth, 0}, 10};
+    const TwistedLayers layers{0, 10, 720};
+    const Slicing slicing = smooth_slicing(layers, 1, {circle_polygon(disc, 120)});
+    const double tolerance = smooth_tolerance(layers, 10 + depth);
+    EXPECT_LT(error_of_sides(layers, slicing, disc), 1.1 * tolerance) << depth;
+    EXPECT_GE(slicing.slices, 16) << depth;
+    EXPECT_LE(slicing.slices, depth < 1 ? 48 : depth < 2 ? 90 : 160) << depth;
+  }
+}
+
+TEST(SmoothTolerance, IsAShareOfTheSize) {
+  EXPECT_EQ(smooth_tolerance({0, 1, 90}, 10), 10 * kSmoothTolerance);
+  EXPECT_EQ(smooth_tolerance({0, 1, 90, {2, 1}}, 10), 20 * kSmoothTolerance);
+  EXPECT_EQ(smooth_tolerance({0, 100, 90}, 10), 50 * kSmoothTolerance);
+}
+
+TEST(SmoothSlicing, HasFewerCornersWhereTheFigureBendsSmoothly) {
+  const TwistedLayers layers{0, 40, 30};
+  const Slicing slicing = smooth_slicing(layers, 3, {circle_polygon({{0, 0}, 10}, 360)});
+  EXPECT_LE(slicing.outline.front().size(), 144u);
+  EXPECT_GE(slicing.outline.front().size(), 24u);
 }
 
 TEST(SmoothSlicing, OfAThreadWithCornersIsOpenScads) {

@@ -17,6 +17,51 @@ using csgcore::Op;
 using ::testing::IsSupersetOf;
 using ::testing::SizeIs;
 
+TEST(WithFewerCorners, StaysNearTheCircle) {
+  for (const double tolerance : {1e-3, 1e-2, 1.0}) {
+    const Polygon circle = circle_polygon({{0, 0}, 1}, 360);
+    const SimplePolygons fewer = with_fewer_corners({circle}, tolerance);
+    ASSERT_THAT(fewer, SizeIs(1));
+    EXPECT_THAT(circle, IsSupersetOf(fewer[0]));
+    EXPECT_GE(fewer[0].size(), 24u);
+    EXPECT_LE(fewer[0].size(), tolerance > 1e-3 ? 26u : 72u);
+    double furthest = 0;
+    visit_edges(fewer[0], [&](const Vec2& a, const Vec2& b) {
+      furthest = std::max(furthest, 1 - glm::length((a + b) / 2.0));
+    });
+    EXPECT_LE(furthest, std::min(tolerance, 0.0087));
+  }
+}
+
+TEST(WithFewerCorners, KeepsTurns) {
+  // A box with a fin that is thinner than the tolerance, and an edge that goes there and back.
+  const SimplePolygons box{
+      {{0, 0}, {5, 0}, {5, 9}, {5.001, 9}, {5.001, 0}, {10, 0}, {10, 5}, {0, 5}}};
+  EXPECT_EQ(with_fewer_corners(box, 0.1), box);
+  const SimplePolygons hair{{{0, 0}, {2, 0}, {1, 0.001}, {3, 0.002}, {3, 1}}};
+  EXPECT_EQ(with_fewer_corners(hair, 0.1), hair);
+}
+
+TEST(WithFewerCorners, StaysAsItIsWhereItWouldCross) {
+  // Half a ring, whose outer side alone has corners to lose, is thinner than that takes away.
+  Polygon ring;
+  for (int i = 0; i <= 180; ++i)
+    ring.push_back(Vec2(std::cos(i * kPi / 180), std::sin(i * kPi / 180)));
+  for (int i = 180; i >= 0; i -= 15) {
+    ring.push_back(0.9999 * Vec2(std::cos(i * kPi / 180), std::sin(i * kPi / 180)));
+  }
+  EXPECT_EQ(with_fewer_corners({ring}, 0.0002), SimplePolygons{ring});
+  for (size_t i = 181; i < ring.size(); ++i) ring[i] *= 0.5;
+  EXPECT_LT(with_fewer_corners({ring}, 0.0002).front().size(), ring.size());
+}
+
+TEST(WithFewerCorners, IsFastOnALine) {
+  Polygon line{{0, 1}};
+  for (int i = 0; i < 100000; ++i) line.emplace_back(i * 1e-3, 0);
+  line.emplace_back(100, 1);
+  EXPECT_LT(with_fewer_corners({line}, 1e-3).front().size(), 2000u);
+}
+
 TEST(United, FillsEachFigureByItsOwnRule) {
   const Polygons nested{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
   EXPECT_NEAR(area_of_union({outline_of(nested)}), 15, 1e-7);
