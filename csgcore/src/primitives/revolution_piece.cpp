@@ -215,42 +215,71 @@ class CurveCrosser {
   /// path within its rounding, so that any sign is right.
   static constexpr int kMostRanges = 4 * kDeepest;
 
-  CurvePoint at(const Curve& curve, double s, CurvePoint& slope) const {
-    const Polar own = polar(curve, s, s);
-    const CurvePoint& result = own.point;
+  /// The quartic, `within_curve` times the weight's square, and its growth.
+  struct Quartic {
+    double value, growth;
+  };
+  Quartic quartic(const Curve& curve, double s) const {
+    const double a = (1 - s) * (1 - s) * curve.start_weight, b = 2 * (1 - s) * s * curve.weight,
+                 c = s * s * curve.end_weight;
     const double da = -2 * (1 - s) * curve.start_weight, db = 2 * (1 - 2 * s) * curve.weight,
                  dc = 2 * s * curve.end_weight;
-    const auto growth = [&](double at, double start, double control, double end) {
-      return (da * (start - at) + db * (control - at) + dc * (end - at)) / own.weight;
+    const double weight = a + b + c, weight_growth = da + db + dc;
+    const auto sum = [](double start, double control, double end, double u, double v, double w) {
+      return u * start + v * control + w * end;
     };
-    slope = {growth(result.beyond, curve.start.beyond, curve.control.beyond, curve.end.beyond), 0,
-             growth(result.run, curve.start.run, curve.control.run, curve.end.run)};
-    return result;
+    const auto& [start, control, end, w0, w1, w2] = curve;
+    const double beyond = sum(start.beyond, control.beyond, end.beyond, a, b, c);
+    const double beyond_growth = sum(start.beyond, control.beyond, end.beyond, da, db, dc);
+    const double run = sum(start.run, control.run, end.run, a, b, c);
+    const double run_growth = sum(start.run, control.run, end.run, da, db, dc);
+    const double rise2 = path_.rise * path_.rise;
+    return {rise2 * beyond * (beyond + 2 * path_.offset * weight) - run * run,
+            2 * (rise2 * (beyond * beyond_growth +
+                          path_.offset * (beyond_growth * weight + beyond * weight_growth)) -
+                 run * run_growth)};
+  }
+
+  /// Returns where the quartic's chord over a range is 0, but not close to its ends, where the
+  /// quartic may be 0 for all that can be told.
+  double first_guess(const Curve& curve, const Range& range) const {
+    const double start = quartic(curve, range.from).value, end = quartic(curve, range.to).value;
+    const double share = start / (start - end);
+    constexpr double kLeastShare = 0x1p-5;
+    const bool is_inside = share > kLeastShare && share < 1 - kLeastShare;
+    return range.from + (range.to - range.from) * (is_inside ? share : 0.5);
   }
 
   /// Adds the only root in a range, by Newton's method between bounds.
   void add_root(const Curve& curve, const Range& range, bool is_below) const {
     double from = range.from, to = range.to;
-    CurvePoint point, slope;
-    double s = 0.5 * (from + to);
+    double s = range.to_within ? to : from;
     constexpr int kMostSteps = 200, kQuickSteps = 12;
     constexpr double kLeastStep = 0x1p-54;
-    if (path_.rise == 0) s = range.to_within ? to : from;  // the middle of the path
-    for (int step = 0; step < kMostSteps; ++step) {
-      point = at(curve, s, slope);
-      if (path_.rise == 0) break;
-      const double value = within_curve(point, point);
+    // Where steps shrink faster than this share, as they do next to a root that is no touch, they
+    // do so by more from one to the next, and one that follows a small one is less than a rounding.
+    constexpr double kFastShare = 0x1p-10, kSmallStep = 0x1p-40;
+    double last_step = 1;
+    // A level path is met at its middle.
+    if (path_.rise != 0) s = first_guess(curve, range);
+    for (int step = 0; path_.rise != 0 && step < kMostSteps; ++step) {
+      const auto [value, growth] = quartic(curve, s);
       (value > 0) == range.from_within ? from = s : to = s;
-      const double growth =
-          2 * (path_.rise * path_.rise * (point.beyond + path_.offset) * slope.beyond -
-               point.run * slope.run);
       double next = s - value / growth;
-      if (!(next > from && next < to) || step % kQuickSteps == kQuickSteps - 1) {
+      const double size = std::abs(next - s);
+      const bool is_last =
+          size <= kLeastStep || (size <= kSmallStep && size <= kFastShare * last_step);
+      last_step = size;
+      if (is_last) {
+        next = std::clamp(next, range.from, range.to);
+      } else if (!(next > from && next < to) || step % kQuickSteps == kQuickSteps - 1) {
         next = 0.5 * (from + to);
       }
-      if (std::abs(next - s) <= kLeastStep || next == from || next == to) break;
+      const bool is_end = next == from || next == to;
       s = next;
+      if (is_last || is_end) break;
     }
+    const CurvePoint point = polar(curve, s, s).point;
     const double across = std::sqrt(std::max(0.0, across2(point)));
     const double rho = is_below == (path_.upwards() > 0) ? -across : across;
     const double r = point.beyond + path_.offset;
