@@ -32,6 +32,13 @@ function constant() = list;
 module quiet() { echo(q, $q); }
 )";
 
+// A used file whose top level has another result at each call.
+constexpr const char* kChanging = R"(name = parent_module(0);
+number = rands(0, 1, 1)[0];
+function name() = name;
+function number() = number;
+)";
+
 // A used file in another folder, which reads names that are not set.
 constexpr const char* kUnset = "function unset() = [$name, $children, name];\n";
 
@@ -57,6 +64,7 @@ Evaluated evaluated(const std::string& program, const Options& options) {
   const Folder folder;
   folder.write("library.scad", kLibrary);
   folder.write("quiet.scad", kQuiet);
+  folder.write("changing.scad", kChanging);
   folder.write("folder/unset.scad", kUnset);
   EvaluationOptions evaluation;
   evaluation.hard_warnings = options.hard_warnings;

@@ -93,6 +93,17 @@ multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]);
 )");
 }
 
+TEST(Scopes, UsedFilesAreEvaluatedAgainWhereThatCanBeTold) {
+  EXPECT_EQ(evaluated(R"(use <changing.scad>
+module a() echo(name());
+module b() { echo(name(), number() == number()); }
+a();
+b();
+)")
+                .messages,
+            "ECHO: \"a\"\nECHO: \"b\", false\n");
+}
+
 TEST(Scopes, ChildCountIsLexical) {
   const Evaluated result = evaluated(R"(function c() = $children;
 module m() { echo($children, $parent_modules, c()); children(); }

@@ -18,14 +18,6 @@ namespace language {
 /// - Top levels of used files, under the conditions that hold within an evaluation (LANGUAGE.md,
 ///   "Scopes and calls"), if they hold no function values and if the texts of the file and of all
 ///   that it includes and uses are the same. Values are copied in and out.
-/// - Calls of modules that are defined at a top level and get no children: their nodes are copied
-///   from the tree of the last evaluation that came to its end, with places that follow the text,
-///   if nothing that the call can see has changed: its arguments, the `$` variables that it reads,
-///   the variables of the main file's top level that the code which ran can name, the texts of the
-///   definitions that it stands in, and the names and texts which decide what a name means. A call
-///   that says something is evaluated anew; so is one that calls rands(), asks for the name of a
-///   module around it, looks a file up, gets or sees a function value, or in which an include
-///   stands.
 class EvaluationCache {
  public:
   EvaluationCache();

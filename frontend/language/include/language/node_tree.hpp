@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
@@ -143,11 +142,6 @@ struct NodeTree {
   uint32_t open(NodeKind kind, uint8_t modifiers, Place place);
   /// All nodes behind it are its descendants.
   void close(uint32_t node) { nodes[node].end = size(); }
-  /// Adds the nodes from `first` to before `end` of another tree behind all others, with copies of
-  /// what they refer to, at the places that `moved` returns for theirs. They must be whole
-  /// subtrees. Returns whether all could be copied; if not, nothing is added.
-  bool append(const NodeTree& from, uint32_t first, uint32_t end,
-              const std::function<Place(Place)>& moved);
   /// Removes a node that is open, or the last that was closed, with its descendants.
   void remove(uint32_t node);
   /// Adds an argument to the last node.

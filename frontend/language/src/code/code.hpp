@@ -20,17 +20,13 @@ namespace language {
 
 struct Code;
 
-/// The number of a definition where code stands in none at the main unit's top level.
-constexpr uint32_t kNoDefinition = 0xFFFFFFFFu;
-
 /// A function, by definition or by literal, or a module. Its code is compiled at the first call,
 /// and anew where a call passes a name that it does not declare: then that is one of its variables.
 struct Callable {
   Name name;  // kNoName: a literal
   Place place;
   std::span<const Parameter> written_parameters;
-  const ScopeLayout* scope;             // where it is defined
-  uint32_t definition = kNoDefinition;  // see Code::definition
+  const ScopeLayout* scope;  // where it is defined
   /// The following are filled in when a call is compiled or happens: Compiler::prepare().
   bool is_prepared = false;
   ParameterList parameters{};
@@ -137,11 +133,6 @@ struct TraceRegion {
 
 struct Code {
   uint32_t unit = 0;  // whose text it stems from
-  /// Number of the definition at the main unit's top level that it stands in: of the functions,
-  /// then of the modules. Function literals have none.
-  uint32_t definition = kNoDefinition;
-  /// Slots of the variables of the main unit's top level that it may read, each once.
-  std::vector<uint32_t> top_variables;
   std::vector<Instruction> instructions;
   std::vector<Place> places;  // of each instruction
   std::vector<Value> constants;
@@ -160,7 +151,6 @@ struct Code {
   uint32_t deepest = 0;               // slots that the frame takes at most
   mutable std::vector<Value> caches;  // defaults of tail calls; unset: not evaluated yet
   mutable std::vector<bool> said;     // which of the plans' warnings were said
-  mutable uint64_t noted_by = 0;      // the last record of dependencies that it stands in
 };
 
 }  // namespace language

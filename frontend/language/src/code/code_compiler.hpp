@@ -69,7 +69,6 @@ class CodeCompiler {
   bool may_be_variable(Name name) const;
   bool is_known_variable(Name name) const;
   void store(Name name, Place place);  // pops into a variable of the innermost scope, or binds it
-  void note_top_variable(const ScopeLayout& scope, uint32_t slot);
   uint32_t scope_number(const ScopeLayout& scope) const {
     return scope_->heap_depth - scope.heap_depth;
   }

@@ -101,31 +101,16 @@ Found<ModuleEntry> Compiler::find_module(const ScopeLayout& from, Name name) {
   return find(from, name, &ScopeLayout::modules);
 }
 
-/// Returns Code::definition of the code of a definition that stands in a scope.
-template <typename Definition>
-uint32_t Compiler::definition_number(const Definition& written, const ScopeLayout& scope) const {
-  if (scope.parent || scope.unit != 0) return scope.code->definition;
-  const Scope& main = *program_.units[0].scope;
-  if constexpr (std::is_same_v<Definition, FunctionDefinition>)
-    return static_cast<uint32_t>(&written - main.functions.data());
-  else
-    return static_cast<uint32_t>(main.functions.size()) +
-           static_cast<uint32_t>(&written - main.modules.data());
-}
-
 FunctionEntry& Compiler::add_entry(const FunctionDefinition& written, const ScopeLayout& scope) {
   const FunctionDefinition::Content& content = definitions_.content_of(written);
   return functions_.emplace_back(FunctionEntry{
-      {written.name, written.place, content.parameters, &scope, definition_number(written, scope)},
-      content.body,
-      nullptr});
+      {written.name, written.place, content.parameters, &scope}, content.body, nullptr});
 }
 
 ModuleEntry& Compiler::add_entry(const ModuleDefinition& written, const ScopeLayout& scope) {
   const ModuleDefinition::Content& content = definitions_.content_of(written);
-  return modules_.emplace_back(ModuleEntry{
-      {written.name, written.place, content.parameters, &scope, definition_number(written, scope)},
-      content.body});
+  return modules_.emplace_back(
+      ModuleEntry{{written.name, written.place, content.parameters, &scope}, content.body});
 }
 
 FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const ScopeLayout& scope) {
@@ -158,10 +143,9 @@ void Compiler::define(ScopeLayout& layout, const Scope& scope) {
   for (const ModuleDefinition& module : scope.modules) layout.modules[module.name] = {&module};
 }
 
-Code& Compiler::add_code(uint32_t unit, uint32_t definition) {
+Code& Compiler::add_code(uint32_t unit) {
   Code& code = codes_.emplace_back();
   code.unit = unit;
-  code.definition = definition;
   return code;
 }
 

@@ -109,11 +109,9 @@ class Compiler {
   template <typename Definition, typename Entry>
   Found<Entry> find(const ScopeLayout& from, Name name,
                     DefinedNames<Definition, Entry> ScopeLayout::*names_of);
-  template <typename Definition>
-  uint32_t definition_number(const Definition& written, const ScopeLayout& scope) const;
   FunctionEntry& add_entry(const FunctionDefinition& written, const ScopeLayout& scope);
   ModuleEntry& add_entry(const ModuleDefinition& written, const ScopeLayout& scope);
-  Code& add_code(uint32_t unit, uint32_t definition);
+  Code& add_code(uint32_t unit);
   /// `compile` compiles the body of a function or a module.
   template <typename Entry>
   const Code& code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&));

@@ -8,7 +8,7 @@ UnitEntry& Compiler::unit(uint32_t number) {
   auto& entry = units_[number];
   if (entry) return *entry;
   entry = std::make_unique<UnitEntry>();
-  Code& code = add_code(number, kNoDefinition);
+  Code& code = add_code(number);
   entry->scope = std::make_unique<ScopeLayout>(nullptr, number, &code, true);
   static const Scope kEmpty{};
   const Scope& scope = program_.units[number].scope ? *program_.units[number].scope : kEmpty;
@@ -23,13 +23,12 @@ template <typename Entry>
 const Code& Compiler::code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&)) {
   if (entry.code) return *entry.code;
   prepare(entry);
-  Code& code = add_code(entry.scope->unit, entry.definition);
+  Code& code = add_code(entry.scope->unit);
   size_t slots = 0;
   do {  // a call of itself may pass it a name that it does not declare
     slots = entry.parameters.slot_names.size();
     code = Code();
     code.unit = entry.scope->unit;
-    code.definition = entry.definition;
     (CodeCompiler(*this, code, *entry.scope).*compile)(entry);
   } while (entry.parameters.slot_names.size() != slots);
   entry.code = &code;
@@ -46,7 +45,7 @@ const Code& Compiler::code_of(ModuleEntry& module) {
 
 const Code& Compiler::code_of(BlockEntry& block) {
   if (block.code) return *block.code;
-  Code& code = add_code(block.scope->unit, block.scope->code->definition);
+  Code& code = add_code(block.scope->unit);
   CodeCompiler(*this, code, *block.scope).compile_block(block);
   block.code = &code;
   return code;
@@ -54,7 +53,7 @@ const Code& Compiler::code_of(BlockEntry& block) {
 
 const Code& Compiler::defaults_of(Callable& callable, bool is_module) {
   if (callable.defaults) return *callable.defaults;
-  Code& code = add_code(callable.scope->unit, callable.definition);
+  Code& code = add_code(callable.scope->unit);
   CodeCompiler(*this, code, *callable.scope).compile_defaults(callable, is_module);
   callable.defaults = &code;
   return code;

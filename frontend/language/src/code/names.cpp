@@ -35,7 +35,6 @@ void CodeCompiler::variable_or(Name name, Place place, Op otherwise) {
     const Op op = scope->is_in_heap ? (is_found ? Op::kScoped : Op::kTryScoped)
                                     : (is_found ? Op::kLocal : Op::kTryLocal);
     const uint32_t number = scope->is_in_heap ? scope_number(*scope) : 0;
-    if (!scope->parent && !is_own) note_top_variable(*scope, found->slot);
     const uint32_t position = out_.emit(op, place, is_found ? 1 : 0, found->slot, number);
     if (!is_found) tries.push_back(position);
   }
@@ -61,12 +60,6 @@ bool CodeCompiler::is_known_variable(Name name) const {
     return is_surely_set(*found, is_own, finds_all_set_);
   }
   return false;
-}
-
-void CodeCompiler::note_top_variable(const ScopeLayout& scope, uint32_t slot) {
-  if (scope.unit != 0) return;
-  std::vector<uint32_t>& known = out_.code().top_variables;
-  if (std::find(known.begin(), known.end(), slot) == known.end()) known.push_back(slot);
 }
 
 bool CodeCompiler::may_be_variable(Name name) const {

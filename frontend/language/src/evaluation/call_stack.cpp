@@ -18,7 +18,7 @@ CallStack::CallStack(const Program& program, FunctionEnvironment& environment, c
                      std::stop_token stop)
     : steps(std::move(stop), tree),
       dynamic(program.names.size()),
-      recorder(program, environment, dynamic, steps),
+      recorder(program.names.size(), environment, dynamic),
       program_(program),
       environment_(environment) {
   set_unit(0);
@@ -41,7 +41,6 @@ void CallStack::push(const Code& code, uint32_t base, HeapScope* scope, FrameKin
     frames_.back().scope = scope_;
   }
   frames_.push_back({&code, 0, base, scope, dynamic.trail(), activation, object_memory.used, kind});
-  recorder.note_code(code);
   enter(code, 0, base, scope);
 }
 
@@ -55,7 +54,6 @@ void CallStack::replace(const Code& code, uint32_t slots, HeapScope* scope) {
   Frame& frame = frames_.back();
   frame.code = &code;
   frame.scope = scope;
-  recorder.note_code(code);
   enter(code, 0, base_, scope);
   HeapScopes::release(before);
 }

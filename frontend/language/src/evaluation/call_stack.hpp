@@ -155,7 +155,7 @@ class CallStack {
   FunctionEnvironment& environment_;
   std::vector<Frame> frames_;
   std::vector<HeapScope*> unit_scopes_;
-  uint32_t unit_ = kNoUnit;  // whose code runs
+  uint32_t unit_ = 0;  // whose code runs
 
   // The innermost frame, as far as it changes.
   const Instruction* instructions_ = nullptr;

@@ -90,7 +90,6 @@ class Session {
   std::optional<std::string_view> text_;  // of the main file
   EvaluationCache::Parts* kept_;          // null: nothing is kept
   std::shared_ptr<NodeTree> tree_;
-  KeptCalls calls_;
   std::unique_ptr<Program> program_;
   Messages messages_;
   Machine* machine_ = nullptr;  // while it runs
@@ -230,10 +229,7 @@ void Session::evaluate_program() {
   ModuleEnvironment modules{program_->dialect, messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   preset_names(machine);
-  if (kept_) {
-    machine.top_levels().use(kept_->tops);
-    machine.call_keeper().use(kept_->calls);
-  }
+  if (kept_) machine.top_levels().use(kept_->tops);
   try {
     run_program(machine);
     read_camera(machine);
@@ -245,9 +241,7 @@ void Session::evaluate_program() {
   list_sources();
   append_new(result_.files_read, files.files_read());
   append_new(result_.lookups, files.lookups());
-  if (!kept_) return;
-  machine.top_levels().save(kept_->tops);
-  if (result_.outcome == Outcome::kDone) calls_ = machine.call_keeper().take();
+  if (kept_) machine.top_levels().save(kept_->tops);
 }
 
 void Session::list_sources() {
@@ -281,11 +275,6 @@ Evaluation Session::run() {
   with_deep_stack([this] { parse_and_evaluate(); });
   result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
   result_.tree = std::move(tree_);
-  if (kept_ && result_.outcome == Outcome::kDone) {
-    calls_.tree = result_.tree;
-    calls_.files = result_.files;
-    kept_->calls = std::move(calls_);
-  }
   return std::move(result_);
 }
 

@@ -33,11 +33,9 @@ void EvaluationCache::Parts::begin(const Checks& checks) {
     sources = std::make_shared<KeptSources>();
     first_size_ = 0;
     tops.clear();
-    calls = {};
   }
   if (checks == checks_) return;
   tops.clear();
-  calls = {};
   checks_ = checks;
 }
 

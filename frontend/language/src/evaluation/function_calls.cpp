@@ -89,7 +89,7 @@ void FunctionCalls::call_builtin(uint32_t index, uint32_t count) {
   const BuiltinFunction& function = builtins_[index];
   ValueStack& values = stack_.values;
   const std::span<Value> arguments(values.end() - count, count);
-  stack_.recorder.note_builtin(function, arguments);
+  stack_.recorder.note_builtin(function);
   const OperationLimit limit;
   Value value = function.call({function.name, count, arguments, stack_.place(), environment_});
   values.drop_to(values.size() - count);
@@ -100,7 +100,7 @@ void FunctionCalls::next_lazy(const LazyCall& site) {
   const BuiltinFunction& function = builtins_[site.builtin];
   const auto count = static_cast<uint32_t>(stack_.slot(site.slot).number());
   const std::span<Value> arguments(&stack_.slot(site.slot + 1), count);
-  stack_.recorder.note_builtin(function, arguments);
+  stack_.recorder.note_builtin(function);
   const FunctionCall call{function.name,  site.written, arguments,
                           stack_.place(), environment_, site.argument_names};
   const size_t next = count == site.room ? kNoArgument : function.next_argument(call);

@@ -60,24 +60,19 @@ class StepCount {
     --left_;
     return true;
   }
-  /// Adds the steps that something took which has been reused.
-  void add(uint64_t steps) { counted_ += steps; }
-  uint64_t steps() const { return counted_ - left_; }
 
  private:
   void look() {
     // Well below the 50 ms in which an evaluation has to stop.
     constexpr uint32_t kStepsPerLook = 4096;
     left_ = kStepsPerLook;
-    counted_ += kStepsPerLook;
     if (stop_.stop_requested()) throw Stopped();
     if (tree_.bytes() > static_cast<size_t>(object_memory.limit)) throw OutOfValueMemory();
   }
 
   std::stop_token stop_;
   const NodeTree& tree_;
-  uint32_t left_ = 1;     // until the next look
-  uint64_t counted_ = 1;  // steps until then
+  uint32_t left_ = 1;  // until the next look
 };
 
 }  // namespace language

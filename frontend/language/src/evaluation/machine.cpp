@@ -34,11 +34,10 @@ Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modu
       environment_{compiler.dialect(), messages, modules.files, seeded_generator(), {}, {}},
       stack_(compiler.program(), environment_, tree, std::move(stop)),
       tops_(compiler, stack_),
-      keeper_(compiler.program(), tree, stack_, tops_),
       values_(compiler, stack_),
       functions_(compiler, environment_, stack_),
       dynamic_calls_(compiler, stack_, functions_),
-      modules_(compiler, modules, environment_.module_names, tree, stack_, keeper_),
+      modules_(compiler, modules, environment_.module_names, tree, stack_),
       children_(compiler, stack_, modules_) {}
 
 void Machine::preset(std::string_view name, Value value) {

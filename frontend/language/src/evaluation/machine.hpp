@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "code/compiler.hpp"
-#include "evaluation/call_keeper.hpp"
 #include "evaluation/call_stack.hpp"
 #include "evaluation/function_calls.hpp"
 #include "evaluation/modules.hpp"
@@ -41,7 +40,6 @@ class Machine {
   void end_early();
   /// What is kept between evaluations.
   TopLevels& top_levels() { return tops_; }
-  CallKeeper& call_keeper() { return keeper_; }
 
  private:
   void run();                             // run.cpp; until the first call has ended
@@ -52,7 +50,6 @@ class Machine {
   FunctionEnvironment environment_;
   CallStack stack_;
   TopLevels tops_;
-  CallKeeper keeper_;
   ValueOperations values_;
   FunctionCalls functions_;
   DynamicCalls dynamic_calls_;

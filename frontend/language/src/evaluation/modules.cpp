@@ -25,14 +25,12 @@ int whole(double number) {
 }  // namespace
 
 ModuleCalls::ModuleCalls(Compiler& compiler, ModuleEnvironment& environment,
-                         std::vector<std::string_view>& names, NodeTree& tree, CallStack& stack,
-                         CallKeeper& keeper)
+                         std::vector<std::string_view>& names, NodeTree& tree, CallStack& stack)
     : compiler_(compiler),
       environment_(environment),
       names_(names),
       tree_(tree),
       stack_(stack),
-      keeper_(keeper),
       builtins_(builtin_modules(compiler.dialect().version)),
       fragments_number_(compiler.names().find("$fn")),
       fragments_angle_(compiler.names().find("$fa")),
@@ -101,17 +99,9 @@ void ModuleCalls::call(const CallSite& site) {
   HeapScope* const scope = stack_.take_scope_around(site.is_in_unit, site.scope);
   begin_node(NodeKind::kGroup, site.modifiers);
   tree_.nodes[open_nodes_.back()].is_module_call = true;
-  const uint32_t base = stack_.values.size() - site.slots;
-  if (keeper_.begin(site, scope)) {
-    stack_.values.drop_to(base);
-    names_.pop_back();
-    end_node(false);
-    HeapScopes::release(scope);
-    return;
-  }
   activations_.push_back({&module, site.block, block_scope, stack_.frame().activation});
   const Code& code = compiler_.code_of(module);
-  stack_.push(code, base, scope, FrameKind::kModule,
+  stack_.push(code, stack_.values.size() - site.slots, scope, FrameKind::kModule,
               static_cast<uint32_t>(activations_.size() - 1));
   stack_.frame().callee = &module;
   stack_.frame().call = module.place;
@@ -120,7 +110,6 @@ void ModuleCalls::call(const CallSite& site) {
 
 void ModuleCalls::return_from_call() {
   stack_.dynamic.undo(stack_.frame().trail);
-  keeper_.end(*activations_.back().module);
   HeapScopes::release(activations_.back().block_scope);
   activations_.pop_back();
   names_.pop_back();

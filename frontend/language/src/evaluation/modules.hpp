@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "code/compiler.hpp"
-#include "evaluation/call_keeper.hpp"
 #include "evaluation/call_stack.hpp"
 #include "language/node_tree.hpp"
 #include "modules/builtin_modules.hpp"
@@ -28,8 +27,7 @@ class ModuleCalls {
  public:
   /// `names` are those of the user modules that run, outermost first.
   ModuleCalls(Compiler& compiler, ModuleEnvironment& environment,
-              std::vector<std::string_view>& names, NodeTree& tree, CallStack& stack,
-              CallKeeper& keeper);
+              std::vector<std::string_view>& names, NodeTree& tree, CallStack& stack);
 
   void begin_node(const NodeSite& site) { begin_node(site.kind, site.modifiers); }
   void end_node(bool drop_if_empty);
@@ -62,7 +60,6 @@ class ModuleCalls {
   std::vector<std::string_view>& names_;
   NodeTree& tree_;
   CallStack& stack_;
-  CallKeeper& keeper_;
   const std::span<const BuiltinModule> builtins_;
   std::vector<uint32_t> open_nodes_;  // of the tree, from outside in
   std::vector<Activation> activations_;

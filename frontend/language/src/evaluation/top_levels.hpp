@@ -26,10 +26,6 @@ class TopLevels {
   void enter(uint32_t unit);
   /// Ends the assignments of a top level. Returns true after those of the main file.
   bool end();
-  /// Returns whether a scope's variables depend on nothing but the file's text.
-  bool depends_on_text_alone(uint32_t unit, const HeapScope* scope) const {
-    return kept_[unit].scope == scope && kept_[unit].reads.empty();
-  }
 
   /// Uses top levels that earlier evaluations have kept. They must not change.
   void use(const KeptTops& tops) { earlier_ = &tops; }

@@ -101,7 +101,7 @@ void ValueOperations::make_vector(uint32_t count) {
 }
 
 void ValueOperations::make_closure(uint32_t index) {
-  stack_.recorder.note_closure();
+  stack_.recorder.note_history();
   FunctionEntry& function = *stack_.code().functions[index];
   values_.push(Value::adopt(new Closure(function, stack_.scope(), compiler_.names())));
 }

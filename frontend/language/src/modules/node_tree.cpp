@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "values/copies.hpp"
 #include "values/operators.hpp"
 
 namespace language {
@@ -31,38 +30,6 @@ void NodeTree::add(ArgumentName name, std::span<const double> values, ArgumentSt
   arguments.push_back(
       {name, style, static_cast<uint16_t>(values.size()), static_cast<uint32_t>(numbers.size())});
   numbers.append(values);
-}
-
-bool NodeTree::append(const NodeTree& from, uint32_t first, uint32_t end,
-                      const std::function<Place(Place)>& moved) {
-  if (first == end) return true;
-  const size_t first_argument = from.nodes[first].first_argument;
-  const size_t last_argument =
-      end == from.size() ? from.arguments.size() : from.nodes[end].first_argument;
-  const std::span<const NodeArgument> added(from.arguments.data() + first_argument,
-                                            last_argument - first_argument);
-  const size_t old_arguments = arguments.size(), old_numbers = numbers.size();
-  ValueCopier copier;
-  for (const NodeArgument& argument : added) {
-    NodeArgument copy{argument.name, argument.style, argument.number_count,
-                      static_cast<uint32_t>(numbers.size()), copier.copy(argument.value)};
-    if (argument.value.is_set() && !copy.value.is_set()) {
-      arguments.truncate(old_arguments);
-      numbers.truncate(old_numbers);
-      return false;
-    }
-    numbers.append(from.numbers_of(argument));
-    arguments.push_back(std::move(copy));
-  }
-  const uint32_t shift = size() - first;
-  for (uint32_t i = first; i < end; ++i) {
-    Node node = from.nodes[i];
-    node.place = moved(node.place);
-    node.first_argument += static_cast<uint32_t>(old_arguments - first_argument);
-    node.end += shift;
-    nodes.push_back(node);
-  }
-  return true;
 }
 
 namespace {

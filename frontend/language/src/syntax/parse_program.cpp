@@ -45,7 +45,7 @@ auto& DefinitionReader::content_of(const Definition& definition, Parse parse) {
     NoFiles no_files;
     Lexer lexer(program_.dialect, program_.files, program_.names, *content.arena, messages_,
                 no_files, {definition.place.file, {}, false});
-    lexer.go_on_at(definition.extent.begin);
+    lexer.go_on_at(definition.begin);
     Parser parser(lexer, program_, messages_, stop_);
     content = *parse(parser).content;
   }

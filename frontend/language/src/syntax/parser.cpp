@@ -113,18 +113,9 @@ bool Parser::say_overwritten(const Assignment& assignment, Place first) {
   return true;
 }
 
-/// Returns the extent of what has been parsed since a place, and since the lexer had entered so
-/// many files.
-DefinitionExtent Parser::extent_from(Place begin, uint32_t entries) const {
-  const Place end = boundary();
-  if (end.file != begin.file || lexer_.entries() != entries) return {};
-  return {begin.offset, end.offset};
-}
-
 ModuleDefinition Parser::parse_module() {
   const Nested nested(*this, 7);
   const Place begin = peek().place;
-  const uint32_t entries = lexer_.entries();
   consume();
   const Name name = expect_name();
   expect('(');
@@ -132,7 +123,7 @@ ModuleDefinition Parser::parse_module() {
   const Place place = expect(')');
   const Scope* const body = parse_module_body();
   ModuleDefinition::Content* const content = make(ModuleDefinition::Content{parameters, body});
-  return {name, place, content, extent_from(begin, entries)};
+  return {name, place, content, begin.offset};
 }
 
 const Scope* Parser::parse_module_body() {
@@ -143,7 +134,6 @@ const Scope* Parser::parse_module_body() {
 
 FunctionDefinition Parser::parse_function() {
   const Place begin = peek().place;
-  const uint32_t entries = lexer_.entries();
   consume();
   const Place place = peek().place;
   const Name name = expect_name();
@@ -154,7 +144,7 @@ FunctionDefinition Parser::parse_function() {
   const Expression* body = parse_expression();
   expect(';');
   FunctionDefinition::Content* const content = make(FunctionDefinition::Content{parameters, body});
-  return {name, place, content, extent_from(begin, entries)};
+  return {name, place, content, begin.offset};
 }
 
 void Parser::parse_call(ScopeBuilder& scope) {

@@ -103,7 +103,6 @@ class Parser {
   void parse_block(ScopeBuilder& scope);
   void parse_assignment(ScopeBuilder& scope);
   void add(ScopeBuilder& scope, const Assignment& assignment);
-  DefinitionExtent extent_from(Place begin, uint32_t entries) const;
   const Scope* parse_module_body();
   void parse_call(ScopeBuilder& scope);
   ModuleCall parse_modified_call(bool& is_disabled);

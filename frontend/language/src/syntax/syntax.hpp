@@ -191,18 +191,12 @@ struct DefinitionContent {
   Arena* arena = nullptr;  // where it lies when it is made
 };
 
-/// The bytes of a definition in the file of its place. Its meaning depends on them alone, unless
-/// something is included within them: then `end` is 0.
-struct DefinitionExtent {
-  uint32_t begin = 0, end = 0;
-};
-
 struct FunctionDefinition {
   Name name;
   Place place;
   using Content = DefinitionContent<Expression>;
   Content* content;
-  DefinitionExtent extent{};
+  uint32_t begin = 0;  // where it begins in the file of its place
 };
 
 struct ModuleDefinition {
@@ -210,7 +204,7 @@ struct ModuleDefinition {
   Place place;  // of the `)` that ends its parameters
   using Content = DefinitionContent<Scope>;
   Content* content;
-  DefinitionExtent extent{};
+  uint32_t begin = 0;  // where it begins in the file of its place
 };
 
 /// A file's top level, a module's body or a child block. Each list is in source order; of names
