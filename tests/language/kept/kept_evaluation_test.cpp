@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "evaluation/evaluation_cache.hpp"
 #include "kept/shown.hpp"
+#include "syntax/kept_sources.hpp"
 
 namespace language {
 namespace {
@@ -139,7 +139,7 @@ TEST(KeptEvaluation, DoesNotGrow) {
   for (int save = 0; save < 2000; ++save) {
     folder.write("main.scad", "use <lib.scad>\nname" + std::to_string(save) + " = 1; m(2);\n");
     shown(&cache);
-    most = std::max(most, cache.parts().sources->size());
+    most = std::max(most, cache.sources()->size());
   }
   EXPECT_LT(most, 2000u);
 }

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/name_table.hpp"
 #include "language/value.hpp"
 
 namespace language {
+
+/// `$` names with their values; unset: not bound.
+using NamedValues = std::vector<std::pair<Name, Value>>;
 
 class DynamicNames {
  public:

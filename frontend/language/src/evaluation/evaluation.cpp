@@ -5,7 +5,6 @@
 #include <unordered_set>
 
 #include "base/evaluation_thread.hpp"
-#include "evaluation/evaluation_cache.hpp"
 #include "evaluation/machine.hpp"
 #include "language/make.hpp"
 #include "syntax/parameter_set.hpp"
@@ -52,6 +51,12 @@ Builtins builtin_shapes(NameTable& names, const Dialect& dialect) {
   return builtins;
 }
 
+std::shared_ptr<KeptSources> sources_of(const EvaluationOptions& options) {
+  if (!options.cache) return std::make_shared<KeptSources>();
+  options.cache->begin(options.language);
+  return options.cache->sources();
+}
+
 // One evaluation, from text to nodes.
 class Session {
  public:
@@ -61,10 +66,8 @@ class Session {
         options_(options),
         sink_(sink),
         text_(text),
-        kept_(options.cache ? &options.cache->parts() : nullptr),
         tree_(std::make_shared<NodeTree>()),
-        program_(kept_ ? std::make_unique<Program>(dialect_of(options.language), kept_->sources)
-                       : std::make_unique<Program>(dialect_of(options.language))),
+        program_(std::make_unique<Program>(dialect_of(options.language), sources_of(options))),
         messages_(program_->files, [this](const Message& message) { take(message); }) {}
 
   Evaluation run();
@@ -88,7 +91,6 @@ class Session {
   const EvaluationOptions& options_;
   const MessageSink& sink_;
   std::optional<std::string_view> text_;  // of the main file
-  EvaluationCache::Parts* kept_;          // null: nothing is kept
   std::shared_ptr<NodeTree> tree_;
   std::unique_ptr<Program> program_;
   Messages messages_;
@@ -229,7 +231,6 @@ void Session::evaluate_program() {
   ModuleEnvironment modules{program_->dialect, messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   preset_names(machine);
-  if (kept_) machine.top_levels().use(kept_->tops);
   try {
     run_program(machine);
     read_camera(machine);
@@ -241,7 +242,6 @@ void Session::evaluate_program() {
   list_sources();
   append_new(result_.files_read, files.files_read());
   append_new(result_.lookups, files.lookups());
-  if (kept_) machine.top_levels().save(kept_->tops);
 }
 
 void Session::list_sources() {
@@ -282,9 +282,6 @@ Evaluation Session::run() {
 
 Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
                     const MessageSink& sink, std::optional<std::string_view> text) {
-  if (options.cache)
-    options.cache->parts().begin(
-        {options.language, options.check_parameters, options.check_ranges, options.hard_warnings});
   return Session(path, options, sink, text).run();
 }
 

@@ -38,8 +38,6 @@ class Machine {
   void run_calls();
   /// Forgets the `$` names of calls that Aborted has ended.
   void end_early();
-  /// What is kept between evaluations.
-  TopLevels& top_levels() { return tops_; }
 
  private:
   void run();                             // run.cpp; until the first call has ended

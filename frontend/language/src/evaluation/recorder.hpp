@@ -8,7 +8,6 @@
 
 #include "evaluation/dependency_log.hpp"
 #include "evaluation/dynamic_names.hpp"
-#include "evaluation/evaluation_cache.hpp"
 #include "functions/builtin_functions.hpp"
 
 namespace language {

@@ -1,6 +1,5 @@
 // The top levels of files. Each call of a used file's function or module has its top level
-// evaluated anew, as far as that can be observed (LANGUAGE.md, "Scopes and calls"); a cache of them
-// lasts beyond the evaluation.
+// evaluated anew, as far as that can be observed (LANGUAGE.md, "Scopes and calls").
 #pragma once
 
 #include <cstdint>
@@ -8,7 +7,6 @@
 
 #include "code/compiler.hpp"
 #include "evaluation/call_stack.hpp"
-#include "evaluation/evaluation_cache.hpp"
 
 namespace language {
 
@@ -27,32 +25,21 @@ class TopLevels {
   /// Ends the assignments of a top level. Returns true after those of the main file.
   bool end();
 
-  /// Uses top levels that earlier evaluations have kept. They must not change.
-  void use(const KeptTops& tops) { earlier_ = &tops; }
-  /// Keeps the top levels that were entered for later evaluations.
-  void save(KeptTops& tops);
-
  private:
   /// A top level that can be used again while the `$` names that it read have the same values.
   struct Kept {
     HeapScope* scope = nullptr;  // counted; null: none is kept
     NamedValues reads;
-    NamedValues bindings;       // `$` names that it binds, in order
-    bool is_looked_up = false;  // among those of earlier evaluations
-    bool is_loaded = false;     // from there
+    NamedValues bindings;  // `$` names that it binds, in order
   };
 
-  const std::string& path_of(uint32_t unit) const;
   bool reuse(uint32_t unit);
   void keep(HeapScope* scope);
-  void load(uint32_t unit);
-  void save(uint32_t unit, KeptTops& tops);
 
   Compiler& compiler_;
   CallStack& stack_;
   HeapScope* main_scope_ = nullptr;
-  std::vector<Kept> kept_;             // by unit
-  const KeptTops* earlier_ = nullptr;  // null: none
+  std::vector<Kept> kept_;  // by unit
 };
 
 }  // namespace language

@@ -48,7 +48,7 @@ std::shared_ptr<KeptFile> KeptSources::open(
     if (!bytes) return nullptr;
     std::string text = text_of(std::move(*bytes));
     if (!entry.file || entry.file->source()->text != text) {
-      entry.file = std::make_shared<KeptFile>(known->second, ++versions_, path, std::move(text));
+      entry.file = std::make_shared<KeptFile>(known->second, path, std::move(text));
     }
     entry.signature = signature;
   }

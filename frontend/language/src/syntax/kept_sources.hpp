@@ -36,14 +36,10 @@ struct KeptStatement {
 /// A file that is included or used, with what parsing it has made.
 class KeptFile {
  public:
-  /// `version` differs from that of any other file and of any other text.
-  KeptFile(FileId number, uint64_t version, std::string path, std::string text)
-      : number_(number),
-        version_(version),
-        source_(std::make_shared<SourceFile>(std::move(path), std::move(text))) {}
+  KeptFile(FileId number, std::string path, std::string text)
+      : number_(number), source_(std::make_shared<SourceFile>(std::move(path), std::move(text))) {}
 
   FileId number() const { return number_; }
-  uint64_t version() const { return version_; }
   const std::shared_ptr<SourceFile>& source() const { return source_; }
   /// Where the nodes of statements lie that are to be kept.
   Arena& arena() { return arena_; }
@@ -65,7 +61,6 @@ class KeptFile {
 
  private:
   const FileId number_;
-  const uint64_t version_;
   const std::shared_ptr<SourceFile> source_;
   Arena arena_;
   std::vector<KeptStatement> statements_;  // in the order of the text
@@ -104,7 +99,6 @@ class KeptSources {
   std::vector<std::string> definitions_;
   std::map<std::pair<Role, std::string>, FileId> numbers_;
   std::vector<Entry> files_;  // by number; the first one, the main file, is never kept
-  uint64_t versions_ = 0;
 };
 
 }  // namespace language

@@ -25,9 +25,6 @@ struct Unit {
   const Scope* scope = nullptr;    // null: it could not be parsed, and counts as empty
   std::vector<uint32_t> uses;      // indices into Program::units, in source order
   std::vector<std::string> fonts;  // font files that it names in `use`
-  /// Versions of the files that its text stems from, in the order of reading: two units for which
-  /// they are the same have the same text. 0: the main file, which is never known to be the same.
-  std::vector<uint64_t> versions;
 };
 
 /// How a design is parsed.

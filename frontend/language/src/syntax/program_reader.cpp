@@ -94,11 +94,11 @@ bool ProgramReader::read_main(const std::string& path) {
   if (!text) return false;
   if (is_standard_input) {
     program_.files.add("<stdin>", unit_text(std::move(*text)));
-    add_unit(0, fs::current_path(error).string(), 0);
+    add_unit(0, fs::current_path(error).string());
   } else {
     const fs::path absolute = fs::absolute(path, error);
     program_.files.add(absolute.string(), unit_text(std::move(*text)));
-    add_unit(0, absolute.lexically_normal().parent_path().string(), 0);
+    add_unit(0, absolute.lexically_normal().parent_path().string());
   }
   program_.kept->begin(program_.files[0].path, options_.definitions);
   set_main_unit(0);
@@ -166,18 +166,13 @@ void ProgramReader::cannot_open(std::string_view words, const FileReference& fil
 FileId ProgramReader::include(const FileReference& file) {
   look_whether_to_stop();
   const std::string path = search_.find(file.name, file.folder, file.being_included);
-  auto& versions = program_.units[current_unit_].versions;
-  if (const auto known = included_.find(path); known != included_.end()) {
-    versions.push_back(program_.kept_file(known->second)->version());
-    return known->second;
-  }
+  if (const auto known = included_.find(path); known != included_.end()) return known->second;
   const FileId id = path.empty() ? kNoFile : open(KeptSources::Role::kIncluded, path);
   if (id == kNoFile) {
     cannot_open(program_.dialect.missing_include, file, path);
     return kNoFile;
   }
   included_.emplace(path, id);
-  versions.push_back(program_.kept_file(id)->version());
   return id;
 }
 
@@ -208,8 +203,7 @@ void ProgramReader::use(const FileReference& file) {
     const FileId id = open(KeptSources::Role::kUsed, path);
     if (id == kNoFile) return cannot_open(kMissingLibrary, file, path);
     const std::string folder = fs::path(path).parent_path().string();
-    const uint64_t version = program_.kept_file(id)->version();
-    known = used_.emplace(path, add_unit(id, folder, version)).first;
+    known = used_.emplace(path, add_unit(id, folder)).first;
   }
   auto& uses = program_.units[current_unit_].uses;
   std::erase(uses, known->second);
@@ -224,11 +218,10 @@ void ProgramReader::use_font(const std::string& name, const std::string& path) {
   }
 }
 
-uint32_t ProgramReader::add_unit(FileId file, std::string folder, uint64_t version) {
+uint32_t ProgramReader::add_unit(FileId file, std::string folder) {
   Unit& unit = program_.units.emplace_back();
   unit.folder = std::move(folder);
   unit.file = file;
-  unit.versions = {version};
   return static_cast<uint32_t>(program_.units.size() - 1);
 }
 

@@ -57,7 +57,7 @@ class ProgramReader : public FileLookup {
   void look_whether_to_stop() const;
   void set_main_unit(uint32_t unit);
   bool parse(uint32_t unit);
-  uint32_t add_unit(FileId file, std::string folder, uint64_t version);
+  uint32_t add_unit(FileId file, std::string folder);
   FileId open(KeptSources::Role role, const std::string& path);
   void cannot_open(std::string_view words, const FileReference& file, const std::string& path);
   std::string unit_text(std::string text) const;

@@ -1,8 +1,11 @@
 // How values compare (LANGUAGE.md, "Values"): without recursion, however deeply vectors nest.
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "values/operators.hpp"
 #include "values/range.hpp"
@@ -124,6 +127,17 @@ Value compared(Ordering ordering, bool is_less, bool is_neither, bool is_greater
                                                          : is_neither);
 }
 
+constexpr size_t kMostCompared = 100'000;  // elements: what is shared many times has no end
+
+bool are_same_bits(double left, double right) {
+  return std::bit_cast<uint64_t>(left) == std::bit_cast<uint64_t>(right);
+}
+
+bool are_same_ranges(const RangeObject& left, const RangeObject& right) {
+  return are_same_bits(left.begin, right.begin) && are_same_bits(left.step, right.step) &&
+         are_same_bits(left.end, right.end);
+}
+
 }  // namespace
 
 namespace operators {
@@ -170,6 +184,37 @@ bool are_equal(const Value& left, const Value& right) {
       pairs.push(a, b);
     else if (!are_leaves_equal(a, b))
       return false;
+  }
+  return true;
+}
+
+bool are_identical(const Value& left, const Value& right) {
+  std::vector<std::pair<const Value*, const Value*>> pending = {{&left, &right}};
+  for (size_t compared = 0; !pending.empty(); ++compared) {
+    const auto [a, b] = pending.back();
+    pending.pop_back();
+    if (a->type() != b->type()) return false;
+    switch (a->type()) {
+      case ValueType::kUnset:
+      case ValueType::kUndef:
+        continue;
+      case ValueType::kBool:
+        if (a->boolean() != b->boolean()) return false;
+        continue;
+      case ValueType::kNumber:
+        if (!are_same_bits(a->number(), b->number())) return false;
+        continue;
+      default:
+        break;
+    }
+    if (a->object() == b->object()) continue;
+    if (a->is_function() || compared > kMostCompared) return false;
+    if (a->is_string() && a->text() != b->text()) return false;
+    if (a->is_range() && !are_same_ranges(a->range(), b->range())) return false;
+    if (!a->is_vector()) continue;
+    if (a->elements().size() != b->elements().size()) return false;
+    for (size_t i = 0; i < a->elements().size(); ++i)
+      pending.emplace_back(&a->elements()[i], &b->elements()[i]);
   }
   return true;
 }

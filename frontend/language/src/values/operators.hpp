@@ -58,6 +58,10 @@ inline bool equal(const Value& left, const Value& right) {
   return are_equal(left, right);
 }
 
+/// Returns whether no program could tell two values from each other. May be false for large ones
+/// that it could not tell.
+bool are_identical(const Value& left, const Value& right);
+
 /// Returns container[index], or undef.
 inline Value element_at(const Value& container, const Value& index) {
   if (container.is_vector() && index.is_number()) {
