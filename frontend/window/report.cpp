@@ -23,10 +23,11 @@ json camera_of(const Navigation& navigation) {
 }
 
 json edit_of(const csgcore::EditStats& edit) {
-  return {{"primitives", edit.primitives},       {"primitives_changed", edit.primitives_changed},
-          {"cells_made", edit.cells_made},       {"pixels", edit.pixels},
-          {"pixels_traced", edit.pixels_traced}, {"bytes_uploaded", edit.bytes_uploaded},
-          {"comparisons", edit.comparisons}};
+  return {{"primitives", edit.primitives},
+          {"primitives_changed", edit.primitives_changed},
+          {"cells_made", edit.cells_made},
+          {"pixels", edit.pixels},
+          {"pixels_traced", edit.pixels_traced}};
 }
 
 json step_of(const frontend::TrailStep& step) {

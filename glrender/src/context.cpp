@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "shader_program.hpp"
+
 namespace glrender {
 namespace {
 
@@ -59,6 +61,7 @@ struct HeadlessContext::Impl {
   EGLContext context = EGL_NO_CONTEXT;
   std::string renderer_name;
   uint64_t most_texels = 0;
+  ProgramCache programs;
 
   /// Returns false, with nothing left open, if this display cannot give an OpenGL 3.3 core context.
   bool start(EGLDisplay candidate) {
@@ -93,6 +96,10 @@ struct HeadlessContext::Impl {
 
   void stop() {
     if (display == EGL_NO_DISPLAY) return;
+    if (context != EGL_NO_CONTEXT) {
+      eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
+      programs = {};
+    }
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
     eglTerminate(display);
@@ -122,5 +129,7 @@ const std::string& HeadlessContext::renderer_name() const { return impl_->render
 uint64_t HeadlessContext::most_texels() const { return impl_->most_texels; }
 
 void HeadlessContext::set_most_texels(uint64_t most) { impl_->most_texels = most; }
+
+ProgramCache& HeadlessContext::programs() { return impl_->programs; }
 
 }  // namespace glrender

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "glrender/context.hpp"
+#include "glrender/gl_error.hpp"
 #include "shader_constants.hpp"
 
 namespace glrender {

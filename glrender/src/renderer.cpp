@@ -41,7 +41,6 @@ using csgcore::BlistTest;
 using csgcore::Image;
 using csgcore::Leaf;
 using csgcore::LeafBatch;
-using csgcore::SceneEdit;
 using csgcore::Solid;
 using csgcore::Subdivision;
 using csgcore::SubdivisionOptions;
@@ -57,10 +56,6 @@ constexpr double kThicknessTolerance = 0x1p-21;
 /// Doubtful pixels that are left alone, for each ray of a pixel: any picture may have some at its
 /// edges, and at most 4 were seen in the examples. Only a wall has more of them.
 constexpr uint32_t kFewDoubtful = 16;
-
-/// The most updates of primitives in place. Then all is uploaded anew, which
-/// frees the faces of polyhedra and meshes that are gone.
-constexpr uint32_t kMostUpdates = 256;
 
 /// In tolerances, more than the length of a sheet of an open mesh at the flattest angle at which
 /// its thickness is measured along the normal (SHEET_THICKNESS, SHEET_COSINE).
@@ -91,10 +86,10 @@ TargetFormat format_of(const View& view, bool measured, bool exact_colors) {
 
 class Renderer::Impl {
  public:
-  Impl(const HeadlessContext& context, const Solid& solid)
-      : most_texels_(context.most_texels()),
-        solid_(&solid),
-        buffers_(solid, thickness_tolerance(solid), most_texels_),
+  Impl(HeadlessContext& context, const Solid& solid)
+      : solid_(&solid),
+        buffers_(solid, thickness_tolerance(solid), context.most_texels()),
+        drawer_(context.programs()),
         tolerance_(thickness_tolerance(solid)) {}
 
   void load(const Subdivision& subdivision) {
@@ -103,22 +98,6 @@ class Renderer::Impl {
     subdivision_ = &subdivision;
     first_test_ = std::move(packed.first_test);
   }
-
-  void update(const Solid& solid, const SceneEdit& edit) {
-    subdivision_ = nullptr;
-    solid_ = &solid;
-    tolerance_ = thickness_tolerance(solid);
-    if (edit.keeps_indices() && updates_ < kMostUpdates) {
-      buffers_.update(solid, edit, tolerance_);
-      ++updates_;
-    } else {
-      uploaded_before_ += buffers_.uploaded_bytes();
-      buffers_ = SolidBuffers(solid, tolerance_, most_texels_);
-      updates_ = 0;
-    }
-  }
-
-  uint64_t uploaded_bytes() const { return uploaded_before_ + buffers_.uploaded_bytes(); }
 
   Image draw(const View& view, const FrameSettings& settings, FrameStats& stats) {
     stats = {};
@@ -444,7 +423,6 @@ class Renderer::Impl {
     drawer_.draw(streams_, pass, buffers_, stats);
   }
 
-  uint64_t most_texels_;
   const Solid* solid_;
   SolidBuffers buffers_;
   StreamDrawer drawer_;
@@ -454,8 +432,6 @@ class Renderer::Impl {
   const Subdivision* subdivision_ = nullptr;
   std::vector<uint64_t> first_test_;  // by leaf of the subdivision, in the buffers
   Doubts doubts_;                     // of the last picture, and of the front that it lies behind
-  uint64_t uploaded_before_ = 0;      // bytes, to buffers that were replaced
-  uint32_t updates_ = 0;              // number of updates in place since then
   double tolerance_;
 };
 
@@ -466,10 +442,6 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::load(const Subdivision& subdivision) { impl_->load(subdivision); }
-
-void Renderer::update(const Solid& solid, const SceneEdit& edit) { impl_->update(solid, edit); }
-
-uint64_t Renderer::uploaded_bytes() const { return impl_->uploaded_bytes(); }
 
 Image Renderer::draw(const View& view, const FrameSettings& settings, FrameStats& stats) {
   return impl_->draw(view, settings, stats);

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "glrender/gl_error.hpp"
 #include "shader_kinds.hpp"
 #include "shader_sources.hpp"
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "gl_object.hpp"
-#include "glrender/context.hpp"
 #include "glrender/frame_settings.hpp"
 #include "shader_constants.hpp"
 #include "shader_kinds.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "glrender/context.hpp"
+#include "glrender/gl_error.hpp"
 
 namespace glrender {
 namespace {

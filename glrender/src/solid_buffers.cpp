@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "csgcore/canonical_primitive.hpp"
-#include "glrender/context.hpp"
+#include "glrender/gl_error.hpp"
 #include "shader_constants.hpp"
 
 namespace glrender {
@@ -25,7 +24,6 @@ uint32_t fixed_point(float channel) {
 }
 
 using Surface = std::array<uint32_t, 4>;
-constexpr size_t kPrimitiveBytes = kPrimitiveTexels * 4 * sizeof(float);
 
 /// Red and green; blue, which channels are the primitive's own, and its cut faces; id.
 Surface surface_of(const CanonicalPrimitive& primitive) {
@@ -60,18 +58,21 @@ std::shared_ptr<const csgcore::Profile> profile_of(const CanonicalPrimitive& pri
   return std::static_pointer_cast<const csgcore::Profile>(primitive.shared_shape);
 }
 
+template <typename Texels>
+void upload_texels(Texels& shapes, TextureBuffer& buffer) {
+  if (shapes.empty()) return;
+  const auto texels = shapes.take_added();
+  buffer.upload(texels.data(), texels.size() * sizeof(typename Texels::Texel));
+}
+
 }  // namespace
 
-void TextureBuffer::require_room(size_t bytes) const {
+void TextureBuffer::upload(const void* data, size_t bytes) {
   if (bytes / texel_bytes_ > most_texels_) {
     throw GlError(std::string("the ") + what_ + " need a buffer of " +
                   std::to_string(bytes / texel_bytes_) + " texels, and this OpenGL driver allows " +
                   std::to_string(most_texels_) + " (" + todo_ + ")");
   }
-}
-
-void TextureBuffer::upload(const void* data, size_t bytes) {
-  require_room(bytes);
   if (!buffer_) {
     buffer_ = Buffer::make();
     texture_ = Texture::make();
@@ -80,39 +81,6 @@ void TextureBuffer::upload(const void* data, size_t bytes) {
   glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
   glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
   glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
-  bytes_ = capacity_ = bytes;
-  uploaded_bytes_ += bytes;
-}
-
-/// Moves the contents to a larger buffer, by a copy on the GPU.
-void TextureBuffer::grow(size_t bytes) {
-  require_room(bytes);
-  const size_t capacity = std::min<size_t>(2 * bytes, most_texels_ * texel_bytes_);
-  Buffer larger = Buffer::make();
-  glBindBuffer(GL_COPY_WRITE_BUFFER, larger.name());
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(capacity), nullptr, GL_STATIC_DRAW);
-  glBindBuffer(GL_COPY_READ_BUFFER, buffer_.name());
-  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
-                      static_cast<GLsizeiptr>(bytes_));
-  buffer_ = std::move(larger);
-  capacity_ = capacity;
-  glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
-  glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
-}
-
-void TextureBuffer::update(size_t first_byte, const void* data, size_t bytes) {
-  assert(first_byte <= bytes_);
-  if (bytes == 0) return;
-  if (!buffer_) {
-    upload(data, bytes);
-    return;
-  }
-  if (first_byte + bytes > capacity_) grow(first_byte + bytes);
-  glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
-  glBufferSubData(GL_TEXTURE_BUFFER, static_cast<GLintptr>(first_byte),
-                  static_cast<GLsizeiptr>(bytes), data);
-  bytes_ = std::max(bytes_, first_byte + bytes);
-  uploaded_bytes_ += bytes;
 }
 
 void TextureBuffer::bind(GLuint unit) const {
@@ -147,82 +115,20 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_toleran
     polyhedra_.upload(faces_.texels().data(),
                       faces_.texels().size() * sizeof(PolyhedronTexels::Texel));
   }
-  add_shared_shapes();
+  upload_texels(meshes_, triangles_);
+  upload_texels(profiles_, pieces_);
 }
 
-template <typename Texels>
-void SolidBuffers::add_texels(Texels& texels, TextureBuffer& buffer) {
-  if (texels.empty()) return;
-  using Texel = typename Texels::Texel;
-  const std::vector<Texel> added = texels.take_added();
-  buffer.update((texels.size() - added.size()) * sizeof(Texel), added.data(),
-                added.size() * sizeof(Texel));
-}
-
-void SolidBuffers::add_shared_shapes() {
-  add_texels(meshes_, triangles_);
-  add_texels(profiles_, pieces_);
-}
-
-void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
+void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
   if (primitive.is_convex) {
     enclosures_.add(primitive.enclosure);
   } else {
     nonconvex_.add(primitive.shape);
   }
-}
-
-void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
-  note_kind(primitive);
   if (primitive.is_convex && primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
   meshes_.first_of(mesh_of(primitive));
   profiles_.first_of(profile_of(primitive));
-  const size_t before = faces_.texels().size();
   faces_.first_of(primitive.polyhedron.get());
-  if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
-}
-
-void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit,
-                          double thickness_tolerance) {
-  assert(edit.keeps_indices());
-  solid_ = &solid;
-  const std::span<const CanonicalPrimitive> primitives = solid.primitives();
-  const size_t faces_before = polyhedra_.uploaded_bytes() == 0 ? 0 : faces_.texels().size();
-  for (const uint32_t i : edit.added) take_in(primitives[i]);
-  if (has_faces()) {
-    polyhedra_.update(faces_before * sizeof(PolyhedronTexels::Texel),
-                      faces_.texels().data() + faces_before,
-                      (faces_.texels().size() - faces_before) * sizeof(PolyhedronTexels::Texel));
-  }
-  add_shared_shapes();
-  enclosures_ = nonconvex_ = {};
-  for (const CanonicalPrimitive& primitive : primitives) note_kind(primitive);
-  // The tolerance depends on the size of the whole solid, so that any primitive may have become too
-  // thin.
-  std::vector<bool> is_too_thin = too_thin(solid, thickness_tolerance);
-  for (const uint32_t i : edit.added) is_too_thin_[i] = is_too_thin[i];
-  if (is_too_thin != is_too_thin_) placed_at_.reset();
-  is_too_thin_ = std::move(is_too_thin);
-  std::vector<float> texels;
-  for (const uint32_t i : edit.added) {
-    if (!placed_at_) break;  // place() uploads them later
-    texels.clear();
-    append_texels(i, *placed_at_, texels);
-    primitives_.update(i * kPrimitiveBytes, texels.data(), kPrimitiveBytes);
-  }
-  const auto update_surface = [&](uint32_t i) {
-    const Surface surface = surface_of(primitives[i]);
-    surfaces_.update(i * sizeof surface, surface.data(), sizeof surface);
-  };
-  if (edit.has_other_ids) {
-    std::vector<Surface> surfaces;
-    for (const CanonicalPrimitive& primitive : primitives)
-      surfaces.push_back(surface_of(primitive));
-    surfaces_.upload(surfaces.data(), surfaces.size() * sizeof(Surface));
-    return;
-  }
-  for (const uint32_t i : edit.added) update_surface(i);
-  for (const uint32_t i : edit.recolored) update_surface(i);
 }
 
 void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels) {
@@ -265,11 +171,6 @@ void SolidBuffers::upload_tests(std::span<const BlistTest> tests, ListsOf of) {
   }
   (of == ListsOf::kTiles ? tile_tests_ : tests_)
       .upload(texels.data(), texels.size() * sizeof(TestTexel));
-}
-
-uint64_t SolidBuffers::uploaded_bytes() const {
-  return primitives_.uploaded_bytes() + surfaces_.uploaded_bytes() + tests_.uploaded_bytes() +
-         polyhedra_.uploaded_bytes() + triangles_.uploaded_bytes() + pieces_.uploaded_bytes();
 }
 
 void SolidBuffers::bind(GLuint program, ListsOf of) const {

@@ -30,18 +30,9 @@ class TextureBuffer {
 
   /// Replaces the contents. Throws GlError if they exceed what the driver allows.
   void upload(const void* data, size_t bytes);
-  /// Writes `bytes` bytes from `first_byte` on, past the end too, and leaves all others as they
-  /// are. Precondition: first_byte is at most the number of bytes held. Throws as upload() does.
-  void update(size_t first_byte, const void* data, size_t bytes);
   void bind(GLuint unit) const;
 
-  /// Bytes uploaded by all calls so far.
-  uint64_t uploaded_bytes() const { return uploaded_bytes_; }
-
  private:
-  void require_room(size_t bytes) const;
-  void grow(size_t bytes);
-
   GLenum format_;
   size_t texel_bytes_;
   uint64_t most_texels_;
@@ -49,9 +40,6 @@ class TextureBuffer {
   const char* todo_;
   Buffer buffer_;
   Texture texture_;
-  size_t bytes_ = 0;     // bytes in use
-  size_t capacity_ = 0;  // bytes of the buffer
-  uint64_t uploaded_bytes_ = 0;
 };
 
 /// Selects the buffer of Blists: the cells' or the tiles'.
@@ -66,24 +54,16 @@ class SolidBuffers {
   /// units, are left out. A buffer must not have more than `most_texels`.
   SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance, uint64_t most_texels);
 
-  /// Follows an edit that changed primitives in place. Uploads those alone; all are placed anew if
-  /// the tolerance now leaves other primitives out. `solid` must outlive this object from now on.
-  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit,
-              double thickness_tolerance);
-
   /// Uploads the primitives relative to the frame's focus, unless they are there already.
   void place(const Frame& frame);
   /// Replaces the Blists of the cells or of the tiles.
   void upload_tests(std::span<const csgcore::BlistTest> tests, ListsOf of = ListsOf::kCells);
-  /// Bytes uploaded so far, without the tiles' Blists.
-  uint64_t uploaded_bytes() const;
   /// Binds the buffers and sets the samplers of the program in use.
   void bind(GLuint program, ListsOf of) const;
 
   /// The kinds of the convex primitives' enclosures.
   KindSet enclosures() const { return enclosures_; }
-  /// The kinds of the primitives whose enclosure is of another kind. A kind stays among them even
-  /// if an edit removes its last primitive.
+  /// The kinds of the primitives whose enclosure is of another kind.
   KindSet cuts() const { return cuts_; }
   /// The kinds of the primitives that are not convex.
   KindSet nonconvex() const { return nonconvex_; }
@@ -94,12 +74,7 @@ class SolidBuffers {
   /// Notes which kinds the primitive needs, and adds its faces to faces_,
   /// meshes_ or profiles_.
   void take_in(const csgcore::CanonicalPrimitive& primitive);
-  void note_kind(const csgcore::CanonicalPrimitive& primitive);
   using TestTexel = std::array<uint32_t, 4>;
-  /// Uploads what is not there yet.
-  template <typename Texels>
-  static void add_texels(Texels& texels, TextureBuffer& buffer);
-  void add_shared_shapes();
   bool has_faces() const { return !faces_.empty(); }
   bool has_meshes() const { return !meshes_.empty(); }
   bool has_profiles() const { return !profiles_.empty(); }
@@ -107,8 +82,6 @@ class SolidBuffers {
 
   const csgcore::Solid* solid_;
   PolyhedronTexels faces_;
-  std::vector<std::shared_ptr<const csgcore::Polyhedron>>
-      numbered_;  // keeps alive what faces_ knows by address
   MeshTexels meshes_;
   ProfileTexels profiles_;
   TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_, triangles_, pieces_;

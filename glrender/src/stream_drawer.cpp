@@ -13,10 +13,11 @@ constexpr uint8_t kBoxStrip[] = {3, 7, 1, 5, 4, 7, 6, 3, 2, 1, 0, 4, 2, 6};
 
 }  // namespace
 
-StreamDrawer::StreamDrawer()
+StreamDrawer::StreamDrawer(ProgramCache& programs)
     : instances_(Buffer::make()),
       strip_(Buffer::make()),
       vertex_array_(VertexArray::make()),
+      programs_(programs),
       conservative_depth_(epoxy_has_gl_extension("GL_ARB_conservative_depth") &&
                           epoxy_has_gl_extension("GL_ARB_clip_control")) {
   glBindVertexArray(vertex_array_.name());

@@ -22,10 +22,11 @@ struct Pass {
   GLuint first = 0;         // measured texture of the picture in front of this one; 0: none
 };
 
-/// Owns the buffer of instances and the programs.
+/// Owns the buffer of instances.
 class StreamDrawer {
  public:
-  StreamDrawer();
+  /// The programs must outlive this object.
+  explicit StreamDrawer(ProgramCache& programs);
 
   /// Sets the GL state that the pass needs, and leaves the bound framebuffer.
   void begin(const Pass& pass) const;
@@ -42,7 +43,7 @@ class StreamDrawer {
 
   Buffer instances_, strip_;
   VertexArray vertex_array_;
-  ProgramCache programs_;
+  ProgramCache& programs_;
   bool conservative_depth_;
 };
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "glrender/context.hpp"
+#include "glrender/gl_error.hpp"
 #include "shape_texels.hpp"
 
 namespace glrender {

@@ -1,4 +1,4 @@
-// A design's state between two saves, with what was made of it.
+// A scene with what was made of it.
 #pragma once
 
 #include <memory>
@@ -17,11 +17,6 @@ struct Made {
       : scene(std::move(anew)),
         primitives(canonical_primitives(scene)),
         solid(primitives, scene.model) {}
-  /// Makes the later state from the earlier one.
-  Made(Scene later, const Made& earlier, const SceneEdit& edit)
-      : scene(std::move(later)),
-        primitives(canonical_primitives(scene, *earlier.primitives, edit)),
-        solid(primitives, scene.model, earlier.solid, edit, edit.model) {}
 };
 
 }  // namespace csgcore::checks

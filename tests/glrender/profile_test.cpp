@@ -293,33 +293,6 @@ TEST(ProfilePictureTest, RaysThroughVerticesAndEdgesDoNotLeak) {
   }
 }
 
-/// What the edit adds has a profile of its own, or that of another primitive.
-TEST(ProfilePictureTest, Edits) {
-  const Figure wheel = figure({circle({0, 0}, 2), rectangle({-1, -1}, {1, 1})});
-  const Figure drop = figure({leaf()});
-  const auto scene = [&](const Figure& first, double top) {
-    return test_support::scene_of(
-        Op::kUnion, {make_extrusion(first, 0, 1, 1, top),
-                     make_extrusion(wheel, 0, 1, 1, 1, at(5, 0, 0)), make_sphere(1, at(0, 3, 0))});
-  };
-  const Scene scenes[] = {scene(wheel, 1), scene(drop, 1), scene(drop, 0.5), scene(wheel, 0)};
-  LoadedScene loaded(scenes[0], gl_test::by_tiles());
-  std::vector<std::unique_ptr<LoadedScene>> later;  // the renderer refers to its last solid
-  for (size_t i = 1; i < std::size(scenes); ++i) {
-    later.push_back(std::make_unique<LoadedScene>(scenes[i], gl_test::by_tiles()));
-    LoadedScene& anew = *later.back();
-    const View view = view_of(anew, Projection::kPerspective, 25, 35);
-    loaded.draw(view);
-    const csgcore::SceneEdit edit = csgcore::compare(scenes[i - 1], scenes[i]);
-    ASSERT_TRUE(edit.keeps_indices());
-    loaded.renderer.update(anew.solid, edit);
-    const Image image = loaded.draw(view);
-    gl_test::expect_agreement(image, gl_test::draw_by_cpu(anew, view), view,
-                              anew.solid.bounds().diagonal(), kEdges, "edit");
-    EXPECT_EQ(image.rgb, anew.draw(view).rgb);
-  }
-}
-
 /// A star whose lines pass near its middle, so that a ray crosses most of them.
 ProfileLoop crossed_star(int points, double radius) {
   std::vector<Vec2> corners;

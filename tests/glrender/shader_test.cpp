@@ -16,9 +16,11 @@
 #include "csgcore/profile.hpp"
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
+#include "glrender/renderer.hpp"
 #include "shader_program.hpp"
 #include "shape_texels.hpp"
 #include "support/full_run.hpp"
+#include "support/models.hpp"
 #include "support/test_meshes.hpp"
 
 namespace {
@@ -139,6 +141,27 @@ TEST(ShaderTest, CacheCompilesOnce) {
   key.enclosures.add(csgcore::Shape::kSphere);
   cache.get(key);
   EXPECT_EQ(cache.size(), 3u);
+}
+
+TEST(ShaderTest, RenderersOfAContextShareThePrograms) {
+  HeadlessContext context;
+  csgcore::View view;
+  view.eye = {0, 0, 9};
+  view.half_height = 0.5;
+  view.width_px = view.height_px = 16;
+  FrameSettings settings;
+  settings.technique = Technique::kTiles;
+  const auto programs_after = [&](double radius) {
+    const csgcore::Scene scene =
+        test_support::scene_of(csgcore::Op::kUnion, {csgcore::make_sphere(radius)});
+    const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
+    FrameStats stats;
+    Renderer(context, solid).draw(view, settings, stats);
+    return context.programs().size();
+  };
+  const size_t first = programs_after(1);
+  EXPECT_GT(first, 0u);
+  EXPECT_EQ(programs_after(2), first);
 }
 
 TEST(PolyhedronTexelsTest, HoldEveryFaceOnce) {

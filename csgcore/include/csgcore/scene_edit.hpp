@@ -1,12 +1,5 @@
-// The difference between two scenes, such as a design before and after a save. Data made from the
-// earlier scene need not be made again where the later scene is the same.
-//
-//   const SceneEdit edit = compare(before, after);
-//   auto primitives = canonical_primitives(after, *earlier_primitives, edit);
-//   const Solid solid(primitives, after.model, earlier_solid, edit, edit.model);
-//   for (const PixelArea& area : changed_areas(…)) draw(…);
-//
-// See solid.hpp, changed_areas.hpp and TraceOptions::area.
+// The difference between two scenes, such as a design before and after a save: only a part of the
+// picture has to be drawn again (changed_areas.hpp, TraceOptions::area).
 #pragma once
 
 #include <cstdint>
@@ -62,8 +55,6 @@ struct EditStats {
   uint64_t cells_made = 0;          // leaves of new subdivisions
   uint64_t pixels = 0;              // of the picture
   uint64_t pixels_traced = 0;       // those in changed_areas(); all if OpenGL draws
-  uint64_t bytes_uploaded = 0;      // to the GPU
-  uint64_t comparisons = 0;         // of two scenes; time proportional to their sizes
 };
 
 }  // namespace csgcore

@@ -11,35 +11,21 @@
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/scene.hpp"
-#include "csgcore/scene_edit.hpp"
 
 namespace csgcore {
 
 struct CellList;
 class OperandGroups;
-struct LeanTree;
 
 /// The canonical primitives of a scene, with the same indices. The solids of its trees share them.
 using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
 std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene);
-
-/// Returns the canonical primitives of the scene after an edit. `earlier` are those before it, of
-/// which all that were kept are copied. The result is the same, bit for bit, as if made anew.
-std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene,
-                                                                const CanonicalPrimitives& earlier,
-                                                                const SceneEdit& edit);
 
 /// The solid of one tree of a scene; immutable.
 class Solid {
  public:
   /// Every index in `tree` must be below primitives->size().
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree);
-
-  /// Makes the solid of a tree of the scene after an edit. `earlier` is the solid of the same tree
-  /// before it, with which data that the edit does not change are shared. Pictures are the same,
-  /// bit for bit, as of a solid made anew. `tree_edit` belongs to the tree: SceneEdit::model.
-  Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
-        const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit);
 
   std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
   /// The extents of primitives(), with the same indices; none if the tree is empty.
@@ -59,11 +45,7 @@ class Solid {
   bool contains(const Vec3& point) const;
 
  private:
-  /// Returns the tree that the list and the groups are made of: `tree` without redundant operands.
-  const CsgTree& used_of(const CsgTree& tree) const;
-
   std::shared_ptr<const CanonicalPrimitives> primitives_;
-  std::shared_ptr<const LeanTree> lean_;  // null: no operand is redundant
   Blist list_;
   std::shared_ptr<const CellList> cell_list_;
   std::shared_ptr<const OperandGroups> groups_;

@@ -21,10 +21,6 @@ constexpr size_t kManyOperands = 64;
 constexpr size_t kGroupOperands = 32;
 constexpr size_t kFewOperands = 4;
 
-/// Groups are made anew once a larger share of the primitives has moved, since groups that have
-/// grown reach further than they need to.
-constexpr double kMostMoved = 1.0 / 32;
-
 /// The extent of a ball of infinite radius that contains no cell, so that only the box decides.
 Extent extent_of_box(const Box& box) {
   constexpr double kExtentRounding = 4 * std::numeric_limits<double>::epsilon();
@@ -298,47 +294,6 @@ class OperandGroups::Builder {
 OperandGroups::OperandGroups(const CsgTree& tree, Extents extents)
     : extents_(std::move(extents)), first_group_(static_cast<uint32_t>(extents_.size())) {
   Builder(*this, tree.tokens()).build();
-}
-
-std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
-    const std::shared_ptr<const OperandGroups>& earlier, const CsgTree& tree,
-    const Extents& extents, std::span<const uint32_t> moved) {
-  const size_t count = extents.size();
-  if (earlier->moved_ + moved.size() > kMostMoved * count) return nullptr;
-  std::vector<uint8_t> has_moved(count);
-  for (const uint32_t primitive : moved) has_moved[primitive] = 1;
-
-  // Only the tokens of moved primitives may have other boxes than before.
-  const std::span<const CsgToken> tokens = tree.tokens();
-  const std::vector<Box> before = relevant_boxes(tokens, earlier->extents_);
-  const std::vector<Box> after = relevant_boxes(tokens, extents);
-  std::vector<Box> reach(count);  // by primitive, the boxes of all its tokens, if it moved
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is_primitive && has_moved[tokens[i].value]) {
-      if (before[i].empty() != after[i].empty()) return nullptr;
-      reach[tokens[i].value].merge(after[i]);
-    } else if (before[i].min != after[i].min || before[i].max != after[i].max) {
-      return nullptr;
-    }
-  }
-
-  auto result = std::make_shared<OperandGroups>(*earlier);
-  result->moved_ += static_cast<uint32_t>(moved.size());
-  std::copy(extents.begin(), extents.end(), result->extents_.begin());
-  // A group has a larger index than its members.
-  reach.resize(result->extents_.size());
-  for (uint32_t group = result->first_group_; group < result->count(); ++group) {
-    for (const uint32_t entry : result->members(group).primitive) {
-      reach[group].merge(reach[entry & kPrimitiveBits]);
-    }
-    if (reach[group].empty()) continue;
-    Extent& extent = result->extents_[group];
-    Box box = box_of(extent);
-    box.merge(reach[group]);
-    extent = extent_of_box(box);
-    result->place_members(group);
-  }
-  return result;
 }
 
 BallRows OperandGroups::balls(uint32_t group) const {

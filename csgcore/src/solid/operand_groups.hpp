@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,13 +27,6 @@ class OperandGroups {
   OperandGroups() = default;
   /// `extents` are those of the primitives, with the same indices.
   OperandGroups(const CsgTree& tree, Extents extents);
-
-  /// Returns the BVH for the same tree after an edit, in which only the primitives `moved` have
-  /// other extents. Groups keep their members, and grow if these reach further. Returns null if the
-  /// groups would need other members, or if too many primitives have moved since they were made.
-  static std::shared_ptr<const OperandGroups> with_moved(
-      const std::shared_ptr<const OperandGroups>& earlier, const CsgTree& tree,
-      const Extents& extents, std::span<const uint32_t> moved);
 
   /// The list of the whole tree. It is constant if no operand is left.
   const CellList& list() const { return list_; }
@@ -97,7 +89,6 @@ class OperandGroups {
   CellList list_;
   Extents extents_;
   uint32_t first_group_ = 0;
-  uint32_t moved_ = 0;               // how many primitives have moved since the groups were made
   std::vector<Range> members_;       // by group
   std::vector<uint32_t> primitive_;  // of all groups; then valid indices as the vectors' padding
   std::vector<uint32_t> if_inside_, if_outside_;

@@ -111,9 +111,8 @@ class InnerOperands {
         inside_(-kApartInside * thickness_tolerance),
         is_inner_(tokens.size()) {}
 
-  /// Returns marks by token, or an empty vector if no primitive lies within another. Appends the
-  /// primitives that hold others, and those that they hold, to `grounds`.
-  std::vector<uint8_t> find(std::vector<uint32_t>& grounds) {
+  /// Returns marks by token, or an empty vector if no primitive lies within another.
+  std::vector<uint8_t> find() {
     std::vector<uint32_t> roots;
     for (uint32_t i = 0; i < tokens_.size(); ++i) {
       const CsgToken& token = tokens_[i];
@@ -121,13 +120,13 @@ class InnerOperands {
         const size_t first = roots.size() - token.value;
         if (token.op != Op::kIntersection) {
           const size_t skipped = token.op == Op::kDifference ? 1 : 0;
-          look_at(std::span(roots).subspan(first + skipped), grounds);
+          look_at(std::span(roots).subspan(first + skipped));
         }
         roots.resize(first);
       }
       roots.push_back(i);
     }
-    return grounds.empty() ? std::vector<uint8_t>() : std::move(is_inner_);
+    return found_any_ ? std::move(is_inner_) : std::vector<uint8_t>();
   }
 
  private:
@@ -135,7 +134,7 @@ class InnerOperands {
     return e.half[0] * e.half[0] + e.half[1] * e.half[1] + e.half[2] * e.half[2];
   }
 
-  void look_at(std::span<const uint32_t> roots, std::vector<uint32_t>& grounds) {
+  void look_at(std::span<const uint32_t> roots) {
     if (roots.size() < 2 || roots.size() > kMostOperands) return;
     operands_.clear();
     for (const uint32_t root : roots) {
@@ -158,8 +157,7 @@ class InnerOperands {
         if (other == root || is_inner_[other]) continue;
         if (!is_held(primitive_of(root), primitive_of(other))) continue;
         is_inner_[root] = 1;
-        grounds.push_back(primitive_of(root));
-        grounds.push_back(primitive_of(other));
+        found_any_ = true;
         break;
       }
     }
@@ -182,6 +180,7 @@ class InnerOperands {
   const std::span<const Extent> extents_;
   const double in_surface_, inside_;
   std::vector<uint8_t> is_inner_;
+  bool found_any_ = false;
   std::vector<uint32_t> operands_, largest_;
 };
 
@@ -332,28 +331,24 @@ class Merger {
 
 }  // namespace
 
-std::optional<LeanTree> leave_out_redundant(const CsgTree& tree,
-                                            std::span<const CanonicalPrimitive> primitives,
-                                            std::span<const Extent> extents,
-                                            double thickness_tolerance) {
-  LeanTree lean;
+std::optional<CsgTree> leave_out_redundant(const CsgTree& tree,
+                                           std::span<const CanonicalPrimitive> primitives,
+                                           std::span<const Extent> extents,
+                                           double thickness_tolerance) {
   std::vector<uint8_t> inner =
-      InnerOperands(tree.tokens(), primitives, extents, thickness_tolerance).find(lean.grounds);
+      InnerOperands(tree.tokens(), primitives, extents, thickness_tolerance).find();
   std::vector<Class> classes = classes_of(primitives);
   std::vector<uint8_t> is_shared(classes.size());
+  bool any_shared = false;
   for (uint32_t i = 0; i < classes.size(); ++i) {
-    if (classes[i] != i) is_shared[classes[i]] = 1;
+    if (classes[i] == i) continue;
+    is_shared[classes[i]] = 1;
+    any_shared = true;
   }
-  for (uint32_t i = 0; i < classes.size(); ++i) {
-    if (is_shared[classes[i]]) lean.grounds.push_back(i);
-  }
-  if (lean.grounds.empty()) return std::nullopt;
-  std::ranges::sort(lean.grounds);
-  lean.grounds.erase(std::unique(lean.grounds.begin(), lean.grounds.end()), lean.grounds.end());
+  if (inner.empty() && !any_shared) return std::nullopt;
   Merger merger(tree.tokens(), std::move(classes), std::move(is_shared), std::move(inner));
   if (!merger.find()) return std::nullopt;
-  lean.tree = merger.tree();
-  return lean;
+  return merger.tree();
 }
 
 }  // namespace csgcore

@@ -22,9 +22,6 @@ Box bounds_of(const CanonicalPrimitives& primitives, const CsgTree& tree) {
   return subtree_boxes(tree.tokens(), [&](uint32_t i) { return primitives[i].bounds; }).back();
 }
 
-/// If a larger share of the primitives has changed, the solid is made anew.
-constexpr double kMostChanged = 0.1;
-
 /// Calls work(i) for each i < count, in parallel if there are many.
 template <typename Work>
 void for_each_part(size_t count, Work&& work) {
@@ -49,42 +46,12 @@ Extents extents_of(const CanonicalPrimitives& primitives) {
   return extents;
 }
 
-bool have_common(std::span<const uint32_t> a, std::span<const uint32_t> b) {
-  return std::ranges::any_of(a, [b](uint32_t i) { return std::ranges::binary_search(b, i); });
-}
-
 }  // namespace
 
 std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene) {
   auto result = std::make_shared<CanonicalPrimitives>(scene.primitives.size());
   for_each_part(scene.primitives.size(),
                 [&](size_t i) { (*result)[i] = canonicalize(scene.primitives[i]); });
-  return result;
-}
-
-std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene,
-                                                                const CanonicalPrimitives& earlier,
-                                                                const SceneEdit& edit) {
-  auto result = std::make_shared<CanonicalPrimitives>();
-  if (edit.keeps_indices()) {
-    *result = earlier;
-  } else {
-    const std::vector<uint32_t> later_indices = edit.later_indices();
-    result->resize(scene.primitives.size());
-    for (size_t i = 0; i < earlier.size(); ++i) {
-      if (later_indices[i] != SceneEdit::kGone) (*result)[later_indices[i]] = earlier[i];
-    }
-  }
-  for_each_part(edit.added.size(), [&](size_t i) {
-    (*result)[edit.added[i]] = canonicalize(scene.primitives[edit.added[i]]);
-  });
-  for (const uint32_t i : edit.recolored) {
-    (*result)[i].color = scene.primitives[i].color;
-    (*result)[i].cut_faces = scene.primitives[i].cut_faces;
-  }
-  for (size_t i = 0; edit.has_other_ids && i < result->size(); ++i) {
-    (*result)[i].id = scene.primitives[i].id;
-  }
   return result;
 }
 
@@ -95,43 +62,15 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
     return;
   }
   Extents extents = extents_of(*primitives_);
-  if (auto lean = leave_out_redundant(tree, *primitives_, extents, thickness_tolerance(bounds_))) {
-    lean_ = std::make_shared<const LeanTree>(*std::move(lean));
-  }
-  list_ = compile(used_of(tree));
+  const std::optional<CsgTree> lean =
+      leave_out_redundant(tree, *primitives_, extents, thickness_tolerance(bounds_));
+  const CsgTree& used = lean ? *lean : tree;
+  list_ = compile(used);
   auto list = std::make_shared<CellList>();
   assign(*list, list_.tests);
   cell_list_ = std::move(list);
-  groups_ = std::make_shared<const OperandGroups>(used_of(tree), std::move(extents));
+  groups_ = std::make_shared<const OperandGroups>(used, std::move(extents));
 }
-
-Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
-             const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit) {
-  const bool has_same_list = tree_edit == TreeEdit::kSame && !tree.empty();
-  const bool may_be_wrong = earlier.lean_ && have_common(edit.added, earlier.lean_->grounds);
-  if (!has_same_list || may_be_wrong || edit.added.size() > kMostChanged * edit.primitives_after) {
-    *this = Solid(std::move(primitives), tree);
-    return;
-  }
-  primitives_ = std::move(primitives);
-  lean_ = earlier.lean_;
-  list_ = earlier.list_;
-  cell_list_ = earlier.cell_list_;
-  if (edit.added.empty()) {
-    groups_ = earlier.groups_;
-    bounds_ = earlier.bounds_;
-    return;
-  }
-  bounds_ = bounds_of(*primitives_, tree);
-  const std::span<const Extent> extents_before = earlier.extents();
-  Extents extents(extents_before.begin(), extents_before.end());
-  for (const uint32_t i : edit.added) extents[i] = extent_of((*primitives_)[i]);
-  const CsgTree& used = used_of(tree);
-  groups_ = OperandGroups::with_moved(earlier.groups_, used, extents, edit.added);
-  if (!groups_) groups_ = std::make_shared<const OperandGroups>(used, std::move(extents));
-}
-
-const CsgTree& Solid::used_of(const CsgTree& tree) const { return lean_ ? lean_->tree : tree; }
 
 std::span<const Extent> Solid::extents() const {
   return std::span(groups_->extents()).first(groups_->first_group());

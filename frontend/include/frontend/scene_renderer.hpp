@@ -27,8 +27,8 @@ class SceneRenderer {
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  /// Prepares the scene for drawing, and reuses what still holds of the scene before. Throws Error
-  /// if the scene's size is beyond what can be drawn; the scene before then stays loaded.
+  /// Prepares the scene for drawing. Throws Error if the scene's size is beyond what can be drawn;
+  /// the scene before then stays loaded.
   void load(std::shared_ptr<const csgcore::Scene> scene);
 
   /// Returns the picture that render() makes of the scene, and its statistics, in which reused work

@@ -80,8 +80,6 @@ class CpuRenderer final : public SolidRenderer {
     add(frame_stats, request.stats);
   }
 
-  void replace(const Solid&, const Solid&, const csgcore::SceneEdit&) override { forget(); }
-
   void forget() override { subdivisions_.forget(); }
 
  private:

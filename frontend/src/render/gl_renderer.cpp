@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 #include <type_traits>
-#include <utility>
 
 #include "base/elapsed.hpp"
 #include "csgcore/changed_areas.hpp"
@@ -63,21 +62,6 @@ class GlRenderer final : public SolidRenderer {
     }
   }
 
-  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit) override {
-    auto loaded = loaded_.extract(&before);
-    forget();
-    if (loaded.empty()) return;
-    Loaded& kept = loaded.mapped();
-    try {
-      kept.renderer.update(after, edit);
-    } catch (const glrender::GlError&) {
-      return;  // the next picture loads all, and tells if that fails, too
-    }
-    kept.has_cells = false;
-    loaded.key() = &after;
-    loaded_.insert(std::move(loaded));
-  }
-
   void forget() override {
     loaded_.clear();
     subdivisions_.forget();
@@ -88,7 +72,6 @@ class GlRenderer final : public SolidRenderer {
   struct Loaded {
     Loaded(glrender::HeadlessContext& context, const Solid& solid) : renderer(context, solid) {}
     glrender::Renderer renderer;
-    uint64_t reported_bytes = 0;  // of those that were uploaded
     bool has_cells = false;
   };
 
@@ -156,8 +139,6 @@ class GlRenderer final : public SolidRenderer {
       if (changed || !loaded.has_cells) loaded.renderer.load(subdivision);
       loaded.has_cells = true;
     }
-    const uint64_t bytes = loaded.renderer.uploaded_bytes();
-    request.stats.edit.bytes_uploaded += bytes - std::exchange(loaded.reported_bytes, bytes);
     return loaded.renderer;
   }
 

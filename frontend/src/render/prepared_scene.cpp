@@ -61,20 +61,8 @@ std::vector<std::array<uint8_t, 3>> averaged(const Image& fine, uint32_t side) {
 PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene)
     : scene_(std::move(scene)),
       primitives_(csgcore::canonical_primitives(*scene_)),
-      model_(primitives_, scene_->model) {
-  add_layers();
-}
-
-PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene,
-                             const PreparedScene& earlier, const csgcore::SceneEdit& edit)
-    : scene_(std::move(scene)),
-      primitives_(csgcore::canonical_primitives(*scene_, *earlier.primitives_, edit)),
-      model_(primitives_, scene_->model, earlier.model_, edit, edit.model) {
-  add_layers();
-}
-
-void PreparedScene::add_layers() {
-  scene_box_ = model_.bounds();
+      model_(primitives_, scene_->model),
+      scene_box_(model_.bounds()) {
   PartSolids parts(*primitives_);
   for (const csgcore::Layer& layer : scene_->layers) {
     layers_.push_back(std::make_unique<const PreparedLayer>(*primitives_, layer, parts));

@@ -17,9 +17,6 @@ namespace frontend {
 class PreparedScene {
  public:
   explicit PreparedScene(std::shared_ptr<const csgcore::Scene> scene);
-  /// Of a scene that was edited: what holds of the earlier one is shared.
-  PreparedScene(std::shared_ptr<const csgcore::Scene> scene, const PreparedScene& earlier,
-                const csgcore::SceneEdit& edit);
 
   /// The scene's layers, over the model where none of them is a part of it.
   csgcore::Image draw(SolidRenderer& renderer, const PictureRequest& request) const;
@@ -38,7 +35,6 @@ class PreparedScene {
     bool model_is_layered;
   };
 
-  void add_layers();
   bool is_within(const csgcore::Solid& solid, const PictureRequest& request) const;
   /// Whether the eye lies in the model, or in a layer.
   bool is_within(const PictureRequest& request) const;

@@ -29,15 +29,10 @@ class SceneRenderer::Impl {
     const Clock::time_point start = Clock::now();
     const int exponent = scale_exponent(*scene);
     if (exponent != 0) scene = std::make_shared<const csgcore::Scene>(scaled(*scene, exponent));
-    if (scene_ && exponent == exponent_) {
-      follow(std::move(scene), start);
-    } else {
-      auto prepared = std::make_shared<const PreparedScene>(std::move(scene));
-      prepare_ms_ = ms_since(start);
-      if (renderer_) renderer_->forget();
-      edited_ = {};
-      scene_ = std::move(prepared);
-    }
+    auto prepared = std::make_shared<const PreparedScene>(std::move(scene));
+    prepare_ms_ = ms_since(start);
+    if (renderer_) renderer_->forget();
+    scene_ = std::move(prepared);
     exponent_ = exponent;
   }
 
@@ -89,33 +84,6 @@ class SceneRenderer::Impl {
     Image image;
   };
 
-  /// What the last load() changed.
-  struct Edited {
-    std::weak_ptr<const PreparedScene> before;
-    csgcore::SceneEdit edit;
-  };
-
-  void follow(ScenePointer scene, Clock::time_point start) {
-    csgcore::SceneEdit edit = compared(scene_->scene(), *scene);
-    auto prepared = std::make_shared<const PreparedScene>(std::move(scene), *scene_, edit);
-    prepare_ms_ = ms_since(start);
-    if (renderer_) renderer_->replace(scene_->model(), prepared->model(), edit);
-    edited_ = {scene_, std::move(edit)};
-    scene_ = std::move(prepared);
-  }
-
-  csgcore::SceneEdit compared(const csgcore::Scene& before, const csgcore::Scene& after) {
-    ++comparisons_;
-    return csgcore::compare(before, after);
-  }
-
-  /// From that scene to the loaded one: most often what load() has found out.
-  csgcore::SceneEdit edit_since(const std::shared_ptr<const PreparedScene>& before) {
-    Edited last = std::exchange(edited_, {});
-    if (last.before.lock() == before) return std::move(last.edit);
-    return compared(before->scene(), scene_->scene());
-  }
-
   csgcore::View scaled_view(const csgcore::View& view) const {
     return exponent_ == 0 ? view : scaled(view, exponent_);
   }
@@ -131,7 +99,9 @@ class SceneRenderer::Impl {
 
   Image draw_changes(Kept before, const RenderSettings& settings, RenderStats& stats) {
     const csgcore::View drawn = scaled_view(before.view);
-    const csgcore::SceneEdit edit = edit_since(before.scene);
+    const Clock::time_point start = Clock::now();
+    const csgcore::SceneEdit edit = csgcore::compare(before.scene->scene(), scene_->scene());
+    prepare_ms_ += ms_since(start);
     with_renderer(settings, stats, [&] {
       stats.edit.primitives_changed =
           std::max(edit.removed.size(), edit.added.size()) + edit.recolored.size();
@@ -165,7 +135,6 @@ class SceneRenderer::Impl {
     stats = {};
     stats.primitives = scene_->scene().primitives.size();
     stats.edit.primitives = stats.edit.primitives_changed = stats.primitives;
-    stats.edit.comparisons = std::exchange(comparisons_, 0);
     stats.prepare_ms = std::exchange(prepare_ms_, 0.0);
   }
 
@@ -202,8 +171,6 @@ class SceneRenderer::Impl {
   bool is_replaceable_ = false;  // by the CPU, should it fail
   std::string reason_;           // for which kAuto chose it
   Kept kept_;                    // redraw()'s last
-  Edited edited_;                // until it is drawn
-  uint64_t comparisons_ = 0;     // not reported yet
 };
 
 SceneRenderer::SceneRenderer() : SceneRenderer(GpuFolders{}) {}

@@ -8,7 +8,6 @@
 
 #include "csgcore/frame_settings.hpp"
 #include "csgcore/image.hpp"
-#include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/error.hpp"
@@ -65,10 +64,6 @@ class SolidRenderer {
   virtual void draw_layers(const LayerSurfaces& layers, const PictureRequest& request,
                            Compositor& compositor) = 0;
 
-  /// What OpenGL holds of `before` follows the edit to `after`, before `before` ends; all else is
-  /// forgotten.
-  virtual void replace(const csgcore::Solid& before, const csgcore::Solid& after,
-                       const csgcore::SceneEdit& edit) = 0;
   /// All solids that were drawn.
   virtual void forget() = 0;
 };

@@ -3,22 +3,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
+
+#include "glrender/gl_error.hpp"
 
 namespace glrender {
 
-/// Thrown where OpenGL is missing, too old, or fails; what() says which, and what to do.
-class GlError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Thrown where a tile's list is too long for a shader. The same scene can still be drawn by cells.
-class ListsTooLong : public GlError {
- public:
-  using GlError::GlError;
-};
+class ProgramCache;
 
 /// Owns an EGL display and a surfaceless context, which is current on the thread that made it.
 /// Everything else in glrender must be used on that thread, within the context's lifetime. The
@@ -38,6 +29,9 @@ class HeadlessContext {
   /// driver, for the renderers that are made from then on.
   uint64_t most_texels() const;
   void set_most_texels(uint64_t most);
+
+  /// The shaders that were compiled so far: all renderers of the context share them.
+  ProgramCache& programs();
 
  private:
   struct Impl;

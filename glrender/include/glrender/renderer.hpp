@@ -25,7 +25,7 @@
 namespace glrender {
 
 /// Renders one solid. The solid and the context must outlive the renderer. A shader variant is
-/// compiled when a cell or tile first needs it.
+/// compiled when a cell or tile of the context's renderers first needs it.
 class Renderer {
  public:
   Renderer(HeadlessContext& context, const csgcore::Solid& solid);
@@ -36,15 +36,6 @@ class Renderer {
   /// Uploads the Blists of the subdivision's cells. Must be called again after Subdivision::refine.
   /// The subdivision must be one of this renderer's solid, and outlive its draws.
   void load(const csgcore::Subdivision& subdivision);
-
-  /// Follows an edit: from now on the renderer draws `solid`. Where primitives have kept their
-  /// indices, only new ones are uploaded, else all. Drawing cells needs another load(). Throws
-  /// GlError.
-  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit);
-
-  /// Bytes of primitives and cells' Blists uploaded so far. What each frame sends besides, its
-  /// instances and the tiles' Blists, is not counted.
-  uint64_t uploaded_bytes() const;
 
   /// Draws the solid from any view. Cells must have been loaded, and are drawn front to back (paper
   /// §2.3); tiles need no load(). Throws GlError; by tiles also ListsTooLong.

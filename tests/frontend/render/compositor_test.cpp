@@ -33,7 +33,6 @@ class OneByOne final : public SolidRenderer {
       compositor.blend(turn, picture, csgcore::area_of(*surface.solid, request.view));
     }
   }
-  void replace(const csgcore::Solid&, const csgcore::Solid&, const csgcore::SceneEdit&) override {}
   void forget() override {}
 
  private:

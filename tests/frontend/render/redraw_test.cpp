@@ -167,28 +167,6 @@ TEST_P(Redrawn, WhatTheSaveLeftAloneIsNotDrawn) {
   EXPECT_EQ(stats_.edit.cells_made, 0u);
 }
 
-TEST_P(Redrawn, ASaveComparesTheScenesOnce) {
-  if (!can_draw()) GTEST_SKIP() << "no OpenGL";
-  std::mt19937 random(3);
-  Design design(csgcore::checks::framed_tree(12, 5));
-  load(design.scene());
-  const csgcore::View view = view_of(*scene_, csgcore::Projection::kPerspective);
-  redraw(view);
-  for (int save = 0; save < 3; ++save) {
-    design.edit(random);
-    load(design.scene());
-    expect_drawn_anew(redraw(view), view);
-    EXPECT_EQ(stats_.edit.comparisons, 1u);
-  }
-  // Two saves come between two pictures: each alone, and then both together.
-  for (int save = 0; save < 2; ++save) {
-    design.edit(random);
-    load(design.scene());
-  }
-  expect_drawn_anew(redraw(view), view);
-  EXPECT_EQ(stats_.edit.comparisons, 3u);
-}
-
 TEST_P(Redrawn, ASizeThatComesAndGoesIsNoEdit) {
   if (!can_draw()) GTEST_SKIP() << "no OpenGL";
   const auto bitten = [](double size, double bite) {
