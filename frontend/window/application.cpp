@@ -359,7 +359,6 @@ bool Application::take_news() {
 
 void Application::take_version(frontend::DesignVersion version) {
   const bool is_shown = version.design != nullptr;
-  const bool leaves_picture = !is_shown || version.unchanged;
   if (is_shown) tree_ = version.source.tree;
   if (options_.prints_echoes) print_echoes(version);
   if (is_picture_stopped_) ordered_.design.reset();
@@ -384,7 +383,7 @@ void Application::take_version(frontend::DesignVersion version) {
   update_inputs();  // the new version may lack parameters
   show_title();
   // The picture stays, and the next frame shows what there is to say of the version.
-  if (leaves_picture) has_new_picture_ = true;
+  if (!is_shown) has_new_picture_ = true;
 }
 
 /// Follows the camera that the design asks for when it asks for another one, as one does that turns

@@ -88,7 +88,6 @@ void Report::write(const State& state, double save_to_screen_ms) {
       {"version", state.version ? state.version->number : 0},
       {"error", state.version ? state.version->error : ""},
       {"messages", state.version ? state.version->messages : std::vector<std::string>{}},
-      {"unchanged", state.version && state.version->unchanged},
       {"primitives", state.design ? state.design->scene.primitives.size() : 0},
       {"camera", camera_of(state.navigation)},
       {"section_on", state.section.is_on},

@@ -56,9 +56,6 @@ struct DesignVersion {
   /// The files that the design is known to be read from, the design first. Files that it asks for
   /// and that are missing are included.
   std::vector<std::string> files;
-  /// The .csg is byte for byte, or the evaluated tree node for node, that of the last version that
-  /// could be read, and `design` is that version's pointer. The messages may differ.
-  bool unchanged = false;
   DesignSource source;  // that `design` was made from
   DesignInputs inputs;  // that it was read with
   /// What text_in_memory() has given of a design that can be read only once; else nothing.

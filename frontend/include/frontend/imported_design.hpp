@@ -37,8 +37,6 @@ struct ImportedDesign {
   /// The files that its nodes name, and the fonts that it brings along if it has text, whether or
   /// not they are there.
   std::vector<std::string> files;
-  /// Whether it has text, which fonts change that no node names.
-  bool has_text = false;
   /// Whether this is a final render (PictureKind::kRendered) of a plane figure, or another picture
   /// of plane figures alone. The scene has thin plates for them.
   bool is_plane_figure = false;

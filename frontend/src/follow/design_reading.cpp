@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <new>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -33,32 +32,6 @@ DesignMessageSink keeping_messages(DesignVersion& version) {
     version.places.push_back(is_last ? SourcePlace{} : message.place);
     if (!message.follows_error) version.before_error = version.messages.size();
   };
-}
-
-/// Returns whether the design is, byte for byte or node for node, that of a version.
-bool is_same(const DesignSource& before, const DesignText& now) {
-  if ((before.evaluation == nullptr) != (now.evaluation == nullptr)) return false;
-  if (!now.evaluation) return (*before.tree.files)[0].text == now.csg.view();
-  return language::are_same(*before.tree.nodes, *now.evaluation->tree);
-}
-
-/// Returns nothing if the text is that of the version before, and neither names files nor has text,
-/// whose fonts may have changed.
-std::optional<DesignTree> parse_text(const DesignText& text, DesignReading& reading,
-                                     const std::stop_token& stop) {
-  const ImportedDesign* const before = reading.good.design.get();
-  reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
-                              is_same(reading.good.source, text);
-  if (reading.version.unchanged) {
-    if (text.evaluation) {  // whose texts may differ
-      reading.good.source = {tree_of(text, stop), text.evaluation};
-    }
-    return std::nullopt;
-  }
-  const Clock::time_point start = Clock::now();
-  DesignTree tree = tree_of(text, stop);
-  reading.version.parse_ms = ms_since(start);
-  return tree;
 }
 
 void import_into(DesignReading& reading, DesignTree tree, const ImportOptions& options,
@@ -89,11 +62,11 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     reading.watched = std::move(paths);
   };
   DesignText text = read_design_text(path, file_options, stop);
-  std::optional<DesignTree> tree = parse_text(text, reading, stop);
+  const Clock::time_point start = Clock::now();
+  DesignTree tree = tree_of(text, stop);
+  version.parse_ms = ms_since(start);
   file_options.progress("importing");
-  if (tree) {
-    import_into(reading, std::move(*tree), beside(path, text, file_options.import), text, stop);
-  }
+  import_into(reading, std::move(tree), beside(path, text, file_options.import), text, stop);
   reading.good.lacks_files = text.evaluation && text.evaluation->has_unparsed_files;
   if (text.evaluation) version.camera = camera_of(*text.evaluation);
   version.export_ms = text.export_ms;

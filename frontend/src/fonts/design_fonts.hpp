@@ -35,8 +35,6 @@ class DesignFonts {
   /// `pieces`: how many chords a curve becomes; 0: it stays a curve.
   DrawnText letters(const TextSettings& text, int pieces);
 
-  /// Whether there was a text.
-  bool are_used() const { return are_used_; }
   /// The font files that the design brings along, where there was a text.
   const std::vector<std::string>& files() const { return files_; }
 

@@ -342,7 +342,6 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   facet(tree, collected, options, design.warnings);
   design.meshes = collected.polyhedra.take_meshes();
   design.files = collected.files.paths();
-  design.has_text = collected.fonts.are_used();
   const std::vector<std::string>& fonts = collected.fonts.files();
   design.files.insert(design.files.end(), fonts.begin(), fonts.end());
   throw_if_stopped(stop);

@@ -46,15 +46,6 @@ TEST(NodeTree, RemovesNodesWithWhatTheyHave) {
   EXPECT_EQ(tree.size() + tree.arguments.size() + tree.numbers.size(), 0u);
 }
 
-TEST(NodeTree, TellsTreesApart) {
-  EXPECT_TRUE(are_same(tree_of_two(), tree_of_two()));
-  EXPECT_FALSE(are_same(tree_of_two(), tree_of_two(5)));
-  EXPECT_FALSE(are_same(tree_of_two(), tree_of_two(4, 8)));
-  NodeTree other = tree_of_two();
-  other.numbers[1] = 9;
-  EXPECT_FALSE(are_same(tree_of_two(), other));
-}
-
 TEST(NodeTree, FindsRootModifiers) {
   NodeTree tree = tree_of_two();
   EXPECT_FALSE(root_modifiers(tree).shown);

@@ -161,7 +161,4 @@ struct RootModifiers {
 /// Finds the nodes with root modifiers.
 RootModifiers root_modifiers(const NodeTree& tree);
 
-/// Returns whether two trees are the same to the last bit, their places among it.
-bool are_same(const NodeTree& a, const NodeTree& b);
-
 }  // namespace language

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "values/operators.hpp"
-
 namespace language {
 
 uint32_t NodeTree::open(NodeKind kind, uint8_t modifiers, Place place) {
@@ -30,28 +28,6 @@ void NodeTree::add(ArgumentName name, std::span<const double> values, ArgumentSt
   arguments.push_back(
       {name, style, static_cast<uint16_t>(values.size()), static_cast<uint32_t>(numbers.size())});
   numbers.append(values);
-}
-
-namespace {
-
-bool is_same(const Node& a, const Node& b) {
-  return a.kind == b.kind && a.place == b.place && a.first_argument == b.first_argument &&
-         a.end == b.end && a.modifiers == b.modifiers;
-}
-
-bool is_same(const NodeArgument& a, const NodeArgument& b) {
-  return a.name == b.name && a.style == b.style && a.number_count == b.number_count &&
-         a.value.type() == b.value.type() && equal(a.value, b.value);
-}
-
-}  // namespace
-
-bool are_same(const NodeTree& a, const NodeTree& b) {
-  const auto is_equal = [](const auto& x, const auto& y) { return is_same(x, y); };
-  return std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end()) &&
-         std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), is_equal) &&
-         std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(), b.arguments.end(),
-                    is_equal);
 }
 
 RootModifiers root_modifiers(const NodeTree& tree) {
