@@ -106,7 +106,7 @@ bool is_csg(const std::string& path, const DesignFileOptions& options, DesignTex
                   [](const std::string& word) { return word != "--hardwarnings"; });
   if (has_options || !text.scad) return !has_options;
   try {
-    text.tree = parse(*text.scad, text.name, text.csg_path, stop);
+    text.tree = parse(*text.scad, text.name, absolute_path(path), stop);
     return true;
   } catch (const Error&) {
     return false;
@@ -242,7 +242,6 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
   DesignText text;
   const Clock::time_point start = Clock::now();
   text.name = input_name(path);
-  text.csg_path = absolute_path(path);
   text.scad = options.text ? options.text : text_in_memory(path, stop);
   if (!is_csg(path, options, text, stop)) {
     if (!text.scad) check_input(path);
@@ -251,6 +250,7 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
     return text;
   }
   text.csg = text.scad ? *text.scad : read_file(path, is_beyond_repair, stop);
+  text.csg_path = absolute_path(path);
   text.read_ms = ms_since(start);
   if (options.wants_files) text.files = {path};
   return text;
@@ -263,7 +263,7 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
 DesignTree tree_of(const DesignText& text, const std::stop_token& stop) {
   if (text.tree) return *text.tree;
   if (text.evaluation) return tree_of(*text.evaluation, text.name);
-  return parse(text.csg, text.name, text.is_exported ? "" : text.csg_path, stop);
+  return parse(text.csg, text.name, text.csg_path, stop);
 }
 
 ImportedDesign import_design(const DesignFile& file) {
