@@ -413,7 +413,8 @@ bool Application::play() {
 
 void Application::update_inputs() {
   if (!state_.shows_animation) state_.animation.stop();
-  frontend::DesignInputs wanted{state_.customizer.inputs(), std::nullopt};
+  frontend::DesignInputs wanted{state_.customizer.inputs(), std::nullopt, std::nullopt};
+  if (state_.language != options_.language) wanted.language = state_.language;
   if (state_.animation.frame() > 0) wanted.time = state_.animation.time();
   if (wanted == inputs_) return;
   inputs_ = std::move(wanted);

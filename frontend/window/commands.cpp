@@ -18,6 +18,8 @@ constexpr CommandRow kRows[] = {
     {Command::kCopy, Menu::kFile, "Copy what is measured or said", "Ctrl+C", GLFW_KEY_C, kControl,
      false},
     {Command::kOpenEditor, Menu::kFile, "Open in the editor", "E", GLFW_KEY_E, kNone, false},
+    {Command::kLanguage2021, Menu::kFile, "Language of OpenSCAD 2021.01", "", 0, kNone, true},
+    {Command::kLanguage2026, Menu::kFile, "Language of OpenSCAD 2026", "", 0, kNone, false},
     {Command::kQuit, Menu::kFile, "Quit", "Ctrl+Q", GLFW_KEY_Q, kControl, true},
 
     {Command::kViewAll, Menu::kView, "View all", "Ctrl+Shift+V", GLFW_KEY_V, kControl | kShift,

@@ -48,6 +48,8 @@ enum class Command : uint8_t {
   kParameters,
   kAnimation,
   kPlay,
+  kLanguage2021,
+  kLanguage2026,
   kForgetPoints,
   kMessages,
   kPlace,

@@ -119,6 +119,7 @@ State::State(const frontend::Options& options)
       look(options.render),
       overlays(options.overlays),
       customizer(options.input, options.openscad_arguments),
+      language(options.language),
       name(options.input) {}
 
 void State::begin(const frontend::Options& options) {
@@ -126,6 +127,7 @@ void State::begin(const frontend::Options& options) {
   fresh.navigation.set_projection(navigation.projection());
   fresh.look = look;
   fresh.overlays = overlays;
+  fresh.language = language;
   fresh.shows_place = shows_place;
   fresh.shows_messages = shows_messages;
   fresh.shows_status = shows_status;
@@ -249,6 +251,12 @@ bool State::apply(Command command) {
       case Command::kPhongShading:
         look.shading = Shading::kPhong;
         break;
+      case Command::kLanguage2021:
+        language = language::LanguageVersion::k2021;
+        break;
+      case Command::kLanguage2026:
+        language = language::LanguageVersion::k2026;
+        break;
       case Command::kSection:
         if (section.is_on) {
           section.is_on = false;
@@ -304,6 +312,10 @@ bool State::is_checked(Command command) const {
       return look.shading == Shading::kOpenScad;
     case Command::kPhongShading:
       return look.shading == Shading::kPhong;
+    case Command::kLanguage2021:
+      return language == language::LanguageVersion::k2021;
+    case Command::kLanguage2026:
+      return language == language::LanguageVersion::k2026;
     case Command::kSection:
       return section.is_on;
     case Command::kSectionFlip:

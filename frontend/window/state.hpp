@@ -68,6 +68,7 @@ struct State {
   bool enters_menus = false;  // a key has asked for the menu
   bool shows_menus = false;   // a menu is open, or keys walk along the menu bar
   Customizer customizer;
+  language::LanguageVersion language;  // that the design is evaluated in
   bool shows_parameters = false;
   ParameterEdit parameter_edit;
   std::string new_set;  // the name of a set that is to be saved

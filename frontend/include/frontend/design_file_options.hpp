@@ -34,6 +34,8 @@ struct DesignInputs {
   std::optional<language::ParameterSet> parameters;
   /// $t. Openscad takes it by -D, behind the assignments of the design's own top level.
   std::optional<double> time;
+  /// In place of the language that is chosen otherwise.
+  std::optional<language::LanguageVersion> language;
 
   bool operator==(const DesignInputs&) const = default;
 };
@@ -55,6 +57,7 @@ struct DesignFileOptions {
   language::LanguageVersion language{};  // of the own evaluator
   DesignInputs inputs;
   language::CameraChoice camera{};
+  language::ViewCamera view{};  // of the command line
   /// What text_in_memory() has given of the design before; nothing: it is asked.
   std::optional<FileText> text{};
   /// What the own evaluator keeps between readings of the design; null: nothing.

@@ -1,6 +1,7 @@
 // The command line, as OpenSCAD's own parser reads it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -75,6 +76,13 @@ struct Options {
   bool has_hard_warnings = false;  // a warning of the design ends the run
   bool info = false;
 };
+
+/// Returns the camera that a design of 2026 finds in its $vpt, $vpr and $vpd.
+inline language::ViewCamera view_of(const Options& options) {
+  const Camera camera = options.camera.camera.value_or(Camera{});
+  const auto numbers = [](const csgcore::Vec3& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+  return {numbers(camera.target), numbers(camera.rotation_deg), camera.distance};
+}
 
 /// Returns what a picture's camera is chosen by.
 inline language::CameraChoice camera_choice(const Options& options) {

@@ -7,8 +7,9 @@ namespace frontend {
 
 /// What `openscad -o` writes of a design as text.
 enum class TextKind : uint8_t {
-  kCsg,   // its tree
-  kEcho,  // the messages of its evaluation
+  kCsg,    // its tree
+  kEcho,   // the messages of its evaluation
+  kParam,  // what its user can choose, as JSON
 };
 
 }  // namespace frontend

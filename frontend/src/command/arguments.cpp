@@ -113,7 +113,9 @@ std::vector<std::string> openscad_arguments_of(const Arguments& arguments) {
   arguments.for_each([&](const std::string& option, const std::string& value) {
     if (option == "D" || option == "p" || option == "P" || option == "m") {
       result.insert(result.end(), {"-" + option, value});
-    } else if (option == "check-parameters" || option == "check-parameter-ranges") {
+    } else if (option == "check-parameters" || option == "check-parameter-ranges" ||
+               option == "enable" || option == "trace-depth" ||
+               option == "trace-usermodule-parameters") {
       result.push_back("--" + option + "=" + value);
     } else if (option == "hardwarnings") {
       result.push_back("--hardwarnings");

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 constexpr const char* kUsage =
     "Usage: scadray check [options] FILE...\n"
     "Evaluates each FILE (.scad) by scadray and by openscad, and shows the first difference of\n"
-    "their trees and of their messages. Options: -D VAR=VALUE, -p FILE, -P SET, --hardwarnings,\n"
+    "their trees and of their messages, in the language that openscad's version speaks. Options: "
+    "-D VAR=VALUE, -p FILE, -P SET, --hardwarnings,\n"
     "--check-parameters=BOOL, --check-parameter-ranges=BOOL. Exit status: 0 if all are the same,\n"
     "2 if any differs, 1 after a failure.\n";
 
@@ -79,9 +80,36 @@ Result by_openscad(const std::string& file, const std::vector<std::string>& opti
   return {text_of(tree), text_of(messages)};
 }
 
-Result by_scadray(const std::string& file, const std::vector<std::string>& options) {
-  const std::optional<language::EvaluationOptions> known = evaluation_options(options, file);
+/// Returns what `openscad --version` prints behind "version ": "2021.01"; empty if it is not
+/// understood.
+std::string openscad_version() {
+  const WorkFolder folder;
+  const std::string path = folder.file("version");
+  std::FILE* const said = std::fopen(path.c_str(), "we");
+  if (said == nullptr) throw Error(path, {}, "cannot be written", "check $TMPDIR");
+  ChildProcess({{openscad_program(), "--version"}, fileno(said), fileno(said)}).wait();
+  std::fclose(said);
+  constexpr std::string_view kWord = "version ";
+  const std::string text = text_of(path);
+  const std::size_t found = text.find(kWord);
+  if (found == std::string::npos) return {};
+  const std::size_t begin = found + kWord.size();
+  return text.substr(begin, text.find_first_of(" \r\n", begin) - begin);
+}
+
+/// Returns the language that a version of OpenSCAD speaks: snapshots are named by their day.
+language::LanguageVersion language_of(const std::string& version) {
+  constexpr std::string_view kLastRelease = "2021.01";
+  const bool is_snapshot =
+      version > std::string(kLastRelease) && !version.starts_with(kLastRelease);
+  return is_snapshot ? language::LanguageVersion::k2026 : language::LanguageVersion::k2021;
+}
+
+Result by_scadray(const std::string& file, const std::vector<std::string>& options,
+                  language::LanguageVersion language) {
+  std::optional<language::EvaluationOptions> known = evaluation_options(options, file);
   if (!known) throw Error("", {}, "an option of check is not known", "see scadray check --help");
+  known->language = language;
   Result result;
   const language::Evaluation evaluation = language::evaluate(
       file, *known, [&](std::string_view line) { result.messages.append(line) += '\n'; });
@@ -124,9 +152,10 @@ bool show_difference(const std::string& file, const char* what, const std::strin
   return true;
 }
 
-bool check_design(const std::string& file, const std::vector<std::string>& options) {
+bool check_design(const std::string& file, const std::vector<std::string>& options,
+                  language::LanguageVersion language) {
   check_input(file);
-  const Result own = by_scadray(file, options);
+  const Result own = by_scadray(file, options, language);
   const Result openscad = by_openscad(file, options);
   const bool trees = show_difference(file, "trees", own.tree, openscad.tree);
   const bool messages = show_difference(file, "messages", own.messages, openscad.messages);
@@ -153,8 +182,15 @@ ExitCode check_designs(const std::vector<std::string>& arguments) {
     if (has_value && i + 1 < arguments.size()) options.push_back(arguments[++i]);
   }
   if (files.empty()) throw Error("", {}, "no file to check", "see scadray check --help");
+  const std::string version = openscad_version();
+  const language::LanguageVersion language = language_of(version);
+  const bool is_2021 = language == language::LanguageVersion::k2021;
+  print_text(stdout, "compared with openscad " +
+                         (version.empty() ? "of no known version" : version) +
+                         ", in the language of " + (is_2021 ? "2021.01" : "2026") + "\n");
   bool are_same = true;
-  for (const std::string& file : files) are_same = check_design(file, options) && are_same;
+  for (const std::string& file : files)
+    are_same = check_design(file, options, language) && are_same;
   return are_same ? ExitCode::kDone : ExitCode::kDisagreement;
 }
 

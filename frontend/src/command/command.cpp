@@ -148,6 +148,7 @@ class Run {
     reading.evaluator = options_.evaluator;
     reading.language = options_.language;
     reading.camera = camera_choice(options_);
+    reading.view = view_of(options_);
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame_);
     reading.wants_files = !options_.rule_path.empty();

@@ -69,6 +69,7 @@ class ModelRun {
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
     reading.language = options_.language;
+    reading.view = view_of(options_);
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame);
     reading.wants_files = !options_.rule_path.empty();

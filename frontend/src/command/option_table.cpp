@@ -25,7 +25,8 @@ constexpr Completion kViewList{Completion::Kind::kWordList, names_of<kViews>};
 constexpr OptionRow kOpenScadOptions[] = {
     {"o,o", Takes::kTexts, "OUT",
      "what to write: a picture (.png, .exr); the solid (.stl, .off, .obj, .3mf, .amf) or the plane "
-     "figure (.svg, .dxf, .pdf); the evaluated design's tree (.csg) or messages (.echo); - is "
+     "figure (.svg, .dxf, .pdf); the evaluated design's tree (.csg) or messages (.echo), or its "
+     "parameters (.param); - is "
      "standard output, with --export-format; may be given more than once",
      kAnyFile},
     {"export-format",
@@ -60,6 +61,10 @@ constexpr OptionRow kOpenScadOptions[] = {
      "check the parameters of a .scad's modules and functions", kOneOf<kTruthValues>},
     {"check-parameter-ranges", Takes::kText, "BOOL", "check the ranges of a .scad's parameters",
      kOneOf<kTruthValues>},
+    {"trace-depth", Takes::kCount, "N",
+     "the lines that tell the calls around an error of a 2026 design, at most; default 12"},
+    {"trace-usermodule-parameters", Takes::kText, "BOOL",
+     "have the parameters of modules among these lines", kOneOf<kTruthValues>},
     {"quiet,q", Takes::kNothing, "", "errors only"},
     {"info", Takes::kNothing, "",
      "log the renderer that is chosen; without FILE: describe this program"},
@@ -71,7 +76,8 @@ constexpr OptionRow kOpenScadOptions[] = {
      "draw with color(), # and %, the default; =throwntogether: every part whole, no operation"},
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
-    {"enable", Takes::kTexts, "FEATURE", "accepted, without effect"},
+    {"enable", Takes::kTexts, "FEATURE",
+     "lazy-union, or all: loops and blocks of a 2026 design make no groups; passed on to openscad"},
     {"s,s", Takes::kText, "OUT", "the same as -o", kAnyFile},
     {"x,x", Takes::kText, "OUT", "the same as -o", kAnyFile},
 };

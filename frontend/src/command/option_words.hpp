@@ -24,7 +24,8 @@ using Word = std::pair<const char*, Value>;
 constexpr Word<PictureFormat> kFormats[] = {{"png", PictureFormat::kPng},
                                             {"exr", PictureFormat::kExr}};
 /// Formats of texts, beside those of pictures.
-constexpr Word<TextKind> kTextKinds[] = {{"csg", TextKind::kCsg}, {"echo", TextKind::kEcho}};
+constexpr Word<TextKind> kTextKinds[] = {
+    {"csg", TextKind::kCsg}, {"echo", TextKind::kEcho}, {"param", TextKind::kParam}};
 /// Formats of solids and plane figures.
 constexpr Word<ModelFormat> kModelFormats[] = {
     {"stl", ModelFormat::kStl}, {"binstl", ModelFormat::kStl}, {"asciistl", ModelFormat::kAsciiStl},

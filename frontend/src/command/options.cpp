@@ -150,7 +150,7 @@ PictureFormat picture_format(const std::string& path) {
     throw Error(
         path, {}, "is no picture",
         "end it in .png or .exr, or in what a design is exported to (.stl, .off, .obj, .3mf, "
-        ".amf, .svg, .dxf, .pdf, .csg, .echo), or give --export-format");
+        ".amf, .svg, .dxf, .pdf, .csg, .echo, .param), or give --export-format");
   }
   return *format;
 }

@@ -17,6 +17,7 @@
 #include "frontend/openscad_export.hpp"
 #include "frontend/terminal.hpp"
 #include "language/csg_writer.hpp"
+#include "language/customizer.hpp"
 #include "language/evaluation.hpp"
 #include "process/child_process.hpp"
 #include "process/memory_file.hpp"
@@ -34,7 +35,9 @@ std::string frame_path(const std::string& path, const Options& options, uint32_t
       .string();
 }
 
-const char* word_of(TextKind kind) { return kind == TextKind::kCsg ? "csg" : "echo"; }
+const char* word_of(TextKind kind) {
+  return kind == TextKind::kCsg ? "csg" : kind == TextKind::kEcho ? "echo" : "param";
+}
 
 /// Returns the command of openscad that writes the output.
 std::vector<std::string> openscad_command(const Options& options, const TextOutput& output,
@@ -85,6 +88,7 @@ class TextRun {
     }
     known->language = options_.language;
     known->camera = camera_choice(options_);
+    known->view = view_of(options_);
     known->is_preview = options_.import.picture != PictureKind::kRendered;
     bool is_read = true;
     for (uint32_t frame = 0; is_read && frame < frame_count(options_); ++frame) {
@@ -104,9 +108,18 @@ class TextRun {
   void add(std::string_view line) {
     if (options_.quiet && !line.starts_with("ERROR")) return;
     messages_.append(line) += '\n';
-    if (output_.kind != TextKind::kCsg) return;
+    if (output_.kind == TextKind::kEcho) return;
     print_text(stderr, messages_);
     messages_.clear();
+  }
+
+  std::string parameters_of(const language::Evaluation& evaluation) const {
+    const language::SourceFiles& files = *evaluation.files;
+    const auto parameters =
+        language::customizer_parameters(files[files.order().front()].text, options_.language);
+    return language::parameters_text(
+        parameters.value_or(std::vector<language::CustomizerParameter>{}),
+        std::filesystem::path(options_.input).stem().string());
   }
 
   /// Returns whether the design could be read.
@@ -117,9 +130,15 @@ class TextRun {
     }
     const language::Evaluation evaluation = language::evaluate(
         options_.input, options, [&](std::string_view line) { add(line); }, view_of(text_));
+    const std::string advice =
+        advice_of_language(options_.input, options, evaluation.outcome, view_of(text_));
+    if (!advice.empty() && !options_.quiet) print_text(stderr, advice + "\n");
     if (evaluation.outcome == language::Outcome::kNotParsed ||
         evaluation.outcome == language::Outcome::kUnreadable) {
       return false;
+    }
+    if (output_.kind == TextKind::kParam) {
+      outputs_.push_back({path_of(output_, options_, frame), bytes_of(parameters_of(evaluation))});
     }
     if (output_.kind == TextKind::kCsg) {
       outputs_.push_back(

@@ -216,6 +216,7 @@ class DesignFollower::Follower {
     {
       const std::lock_guard lock(mutex_);
       options.inputs = inputs_;
+      options.language = inputs_.language.value_or(options.language);
     }
     return options;
   }

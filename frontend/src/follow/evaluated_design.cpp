@@ -1,6 +1,7 @@
 #include "follow/evaluated_design.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <string_view>
 #include <unordered_map>
@@ -8,6 +9,7 @@
 
 #include "base/lower_case.hpp"
 #include "follow/openscad_messages.hpp"
+#include "fonts/text_meter.hpp"
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
 #include "language/stopped.hpp"
@@ -33,12 +35,23 @@ void read_flag(std::string_view value, bool& flag) {
 bool read_word(std::string_view word, language::EvaluationOptions& options) {
   constexpr std::string_view kParameters = "--check-parameters=";
   constexpr std::string_view kRanges = "--check-parameter-ranges=";
+  constexpr std::string_view kEnable = "--enable=";
+  constexpr std::string_view kTraceDepth = "--trace-depth=";
+  constexpr std::string_view kTraceParameters = "--trace-usermodule-parameters=";
   if (word == "--hardwarnings") {
     options.hard_warnings = true;
   } else if (word.starts_with(kParameters)) {
     read_flag(word.substr(kParameters.size()), options.check_parameters);
   } else if (word.starts_with(kRanges)) {
     read_flag(word.substr(kRanges.size()), options.check_ranges);
+  } else if (word.starts_with(kTraceDepth)) {
+    const std::string_view digits = word.substr(kTraceDepth.size());
+    std::from_chars(digits.data(), digits.data() + digits.size(), options.traces.most_lines);
+  } else if (word.starts_with(kTraceParameters)) {
+    read_flag(word.substr(kTraceParameters.size()), options.traces.has_parameters);
+  } else if (word.starts_with(kEnable)) {
+    const std::string_view feature = word.substr(kEnable.size());
+    if (feature == "lazy-union" || feature == "all") options.lazy_union = true;
   } else {
     return false;
   }
@@ -72,6 +85,7 @@ DesignKind kind_of(const std::string& path) {
 std::optional<language::EvaluationOptions> evaluation_options(
     const std::vector<std::string>& openscad_arguments, const std::string& path) {
   language::EvaluationOptions options;
+  options.text_meter = make_text_meter();
   for (std::size_t i = 0; i < openscad_arguments.size(); ++i) {
     const std::string& word = openscad_arguments[i];
     if (read_word(word, options)) continue;
@@ -90,6 +104,22 @@ std::optional<language::EvaluationOptions> evaluation_options(
   return options;
 }
 
+std::string advice_of_language(const std::string& path, language::EvaluationOptions options,
+                               language::Outcome outcome,
+                               const std::optional<std::string_view>& text) {
+  const bool has_failed =
+      outcome == language::Outcome::kAborted || outcome == language::Outcome::kNotParsed;
+  const bool is_read_once = path == "-" && !text;
+  if (!has_failed || is_read_once || options.language == language::LanguageVersion::k2021)
+    return {};
+  options.language = language::LanguageVersion::k2021;
+  options.cache = nullptr;
+  const language::Evaluation evaluation = language::evaluate(
+      path, options, [](const language::SaidLine&) {}, text);
+  if (evaluation.outcome != language::Outcome::kDone) return {};
+  return "The design can be evaluated in the language of OpenSCAD 2021.01: --language=2021.01";
+}
+
 std::optional<std::string_view> view_of(const std::optional<FileText>& text) {
   return text ? std::optional(text->view()) : std::nullopt;
 }
@@ -105,6 +135,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   known->parameters = options.inputs.parameters;
   known->time = options.inputs.time.value_or(0);
   known->camera = options.camera;
+  known->view = options.view;
   known->is_preview = options.import.picture != PictureKind::kRendered;
   known->stop = stop;
   known->cache = options.cache.get();
@@ -118,6 +149,8 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
           messages.take({std::string(line.text), places.of(line)});
         },
         view_of(text));
+    const std::string advice = advice_of_language(path, *known, evaluation.outcome, view_of(text));
+    if (!advice.empty()) messages.take({advice, {}});
   } catch (const language::Stopped&) {
     throw Stopped{};
   }

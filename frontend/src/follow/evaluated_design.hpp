@@ -38,6 +38,12 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
                                                             const DesignFileOptions& options,
                                                             const std::stop_token& stop);
 
+/// Returns what is to be said of a design whose evaluation has ended so: where it is whole in the
+/// language of 2021.01, and not in that of 2026, that. Empty: nothing. Throws language::Stopped.
+std::string advice_of_language(const std::string& path, language::EvaluationOptions options,
+                               language::Outcome outcome,
+                               const std::optional<std::string_view>& text);
+
 /// Returns the view of a text, if there is one.
 std::optional<std::string_view> view_of(const std::optional<FileText>& text);
 

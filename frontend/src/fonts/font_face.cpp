@@ -271,6 +271,19 @@ const Rectangle& FontFace::pixel_box(uint32_t glyph) {
   return entry->second;
 }
 
+FontFace::Extent FontFace::extent() const {
+  // As FreeType scales: to whole units.
+  constexpr double kFixedOne = 65536;
+  const auto scaled = [&](FT_Pos length) {
+    return std::round(static_cast<double>(length) *
+                      static_cast<double>(face_->size->metrics.y_scale) / kFixedOne);
+  };
+  const auto text = [](const FT_String* name) { return std::string(name == nullptr ? "" : name); };
+  return {scaled(face_->ascender),  scaled(face_->descender), scaled(face_->bbox.yMax),
+          scaled(face_->bbox.yMin), scaled(face_->height),    text(face_->family_name),
+          text(face_->style_name)};
+}
+
 const GlyphShape& FontFace::shape_of_glyph(uint32_t glyph, int pieces) {
   const auto [entry, is_new] = shapes_.try_emplace({glyph, pieces});
   if (!is_new) return entry->second;

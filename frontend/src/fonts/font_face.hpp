@@ -78,6 +78,15 @@ class FontFace {
   /// Returns the box of the glyph's control points, rounded outwards to whole pixels; empty if it
   /// has none.
   const Rectangle& pixel_box(uint32_t glyph);
+  /// What the font says of all its letters, in outlines' units: how far they reach above the
+  /// baseline, and below, which is negative; and its names.
+  struct Extent {
+    double ascent, descent;
+    double most_ascent, most_descent;
+    double line_distance;
+    std::string family, style;
+  };
+  Extent extent() const;
   /// Returns the glyph's outline: shape_of(), made once.
   const GlyphShape& shape_of_glyph(uint32_t glyph, int pieces);
 

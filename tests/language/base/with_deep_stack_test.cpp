@@ -15,22 +15,23 @@ int depth_of(int left) {
 
 TEST(WithDeepStack, HoldsDeepRecursion) {
   int depth = 0;
-  with_deep_stack([&] { depth = depth_of(20'000); });
+  with_deep_stack(20'000, [&] { depth = depth_of(20'000); });
   EXPECT_EQ(depth, 20'000);
 }
 
 TEST(WithDeepStack, IsOneForCallsWithinACall) {
   std::thread::id outer, inner;
-  with_deep_stack([&] {
+  with_deep_stack(20'000, [&] {
     outer = std::this_thread::get_id();
-    with_deep_stack([&] { inner = std::this_thread::get_id(); });
+    with_deep_stack(20'000, [&] { inner = std::this_thread::get_id(); });
   });
   EXPECT_EQ(outer, inner);
   EXPECT_NE(outer, std::this_thread::get_id());
 }
 
 TEST(WithDeepStack, PassesOnWhatIsThrown) {
-  EXPECT_THROW(with_deep_stack([] { throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_THROW(with_deep_stack(20'000, [] { throw std::runtime_error("stop"); }),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -18,6 +18,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,5 +32,10 @@ namespace language {
 /// Files that it includes are not looked at.
 std::optional<std::vector<CustomizerParameter>> customizer_parameters(
     std::string_view text, LanguageVersion version = LanguageVersion::k2021);
+
+/// Returns the parameters that are shown, and whose values can be set one by one, as `openscad -o
+/// x.param` writes them: JSON with the design's name as its title.
+std::string parameters_text(std::span<const CustomizerParameter> parameters,
+                            std::string_view title);
 
 }  // namespace language

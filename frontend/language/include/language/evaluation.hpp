@@ -16,6 +16,7 @@
 #include "language/node_tree.hpp"
 #include "language/parameter_value.hpp"
 #include "language/source_files.hpp"
+#include "language/text_meter.hpp"
 
 namespace language {
 
@@ -26,6 +27,19 @@ enum class CameraChoice : uint8_t {
   kCommand,  // --camera: nor is that a value is no camera's
 };
 
+/// The camera that a design of 2026 finds in $vpt, $vpr and $vpd.
+struct ViewCamera {
+  std::array<double, 3> translation{0, 0, 0};
+  std::array<double, 3> rotation_deg{55, 0, 25};
+  double distance = 140;
+};
+
+/// How errors tell the calls around them, in 2026.
+struct TraceOptions {
+  uint32_t most_lines = 12;    // --trace-depth
+  bool has_parameters = true;  // --trace-usermodule-parameters: of modules
+};
+
 struct EvaluationOptions {
   LanguageVersion language = LanguageVersion::k2021;
   std::vector<std::string> definitions;       // -D, in order, as typed
@@ -34,16 +48,21 @@ struct EvaluationOptions {
   bool hard_warnings = false;                 // --hardwarnings
   bool check_parameters = true;               // --check-parameters
   bool check_ranges = false;                  // --check-parameter-ranges
+  bool lazy_union = false;                    // --enable=lazy-union, of 2026
   bool is_preview = true;                     // $preview
   double time = 0;                            // $t
   CameraChoice camera = CameraChoice::kDesign;
+  ViewCamera view;
+  TraceOptions traces;
   std::stop_token stop;
-  EvaluationCache* cache = nullptr;  // null: nothing is kept
+  EvaluationCache* cache = nullptr;       // null: nothing is kept
+  std::shared_ptr<TextMeter> text_meter;  // null: textmetrics() and fontmetrics() find no font
 };
 
 enum class Outcome : uint8_t {
   kDone,
-  kAborted,     // by an assertion, endless recursion or a hard warning: the tree is empty
+  kAborted,     // by an assertion, endless recursion or a hard warning: the tree is empty, or has
+                // in 2026's dialect the nodes of the top level's statements that had ended
   kNotParsed,   // a syntax error in the main file, or in what it includes
   kUnreadable,  // the main file cannot be read
 };

@@ -108,6 +108,7 @@ struct Node {
   NodeKind kind = NodeKind::kGroup;
   uint8_t modifiers = 0;        // CallModifier
   bool is_module_call = false;  // of a module that the design itself defines
+  bool has_lists = false;       // of lazy unions: it is written with braces, also if they are empty
 };
 static_assert(sizeof(Node) == 20);
 

@@ -18,12 +18,14 @@ enum class ValueType : uint8_t {
   kVector,
   kRange,
   kFunction,
+  kObject,
 };
 
 struct StringObject;    // below: bytes, and the number of code points
 struct VectorObject;    // below: elements in one block
 struct RangeObject;     // values/range.hpp: begin, step, end
 struct FunctionObject;  // values/function_object.hpp: what a function value has to know
+struct MembersObject;   // values/members_object.hpp: names with values
 
 /// What is counted: the head of each object. One evaluation runs in one thread, so the count is no
 /// atomic. An object deletes itself without recursion, however deeply vectors are nested.
@@ -79,6 +81,7 @@ class Value {
   bool is_vector() const { return type_ == ValueType::kVector; }
   bool is_range() const { return type_ == ValueType::kRange; }
   bool is_function() const { return type_ == ValueType::kFunction; }
+  bool is_object() const { return type_ == ValueType::kObject; }
 
   // Each of the following may be called for values of that type only.
   bool boolean() const { return payload_.boolean; }
@@ -89,8 +92,9 @@ class Value {
   bool holds_numbers() const { return payload_.object->holds_numbers; }
   const RangeObject& range() const;
   const FunctionObject& function() const;
+  const MembersObject& members() const;  // of an object
 
-  /// Returns the object of a string, vector, range or function.
+  /// Returns the shared object of a string, vector, range, function or object.
   SharedObject* object() const { return payload_.object; }
   /// Returns whether this is the only reference to its object, which may then be changed.
   bool is_unique() const { return is_shared() && payload_.object->references == 1; }
@@ -169,7 +173,7 @@ inline std::span<const Value> Value::elements() const {
 }
 
 /// Returns the name that messages use: "undefined", "bool", "number", "string", "vector", "range",
-/// "function".
+/// "function", "object".
 std::string_view type_name(ValueType type);
 
 }  // namespace language

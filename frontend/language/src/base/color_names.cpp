@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "base/xkcd_colors.hpp"
+
 namespace language {
 namespace {
 
@@ -192,13 +194,18 @@ std::optional<std::array<float, 4>> color_of_hex(std::string_view digits) {
 
 }  // namespace
 
-std::optional<std::array<float, 4>> color_of_name(std::string_view name) {
+std::optional<std::array<float, 4>> color_of_name(std::string_view name, bool has_survey) {
+  constexpr std::string_view kSurvey = "xkcd:";
   if (name.starts_with('#')) return color_of_hex(name.substr(1));
   std::string lower(name);
   for (char& letter : lower) {
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   }
   if (lower == "transparent") return std::array<float, 4>{0, 0, 0, 0};
+  if (has_survey && lower.starts_with(kSurvey)) {
+    const auto rgb = xkcd_color(std::string_view(lower).substr(kSurvey.size()));
+    return rgb ? std::optional(color_of_rgba(*rgb << 8 | 0xFFu)) : std::nullopt;
+  }
   const auto found = std::lower_bound(
       kNamedColors.begin(), kNamedColors.end(), lower,
       [](const NamedColor& color, const std::string& wanted) { return color.name < wanted; });

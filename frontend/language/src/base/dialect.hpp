@@ -50,6 +50,10 @@ class Dialect {
   /// Whether a vector's first element may be a comprehension in parentheses.
   const bool has_comprehension_first = row(false, true);
 
+  /// How many symbols of nested code are stacked, and how many calls follow each other in a chain.
+  const uint32_t most_symbols = row(19'994u, 199'994u);
+  const uint32_t most_chained_calls = row(20'000u, 200'000u);
+
   // Scopes and calls
 
   /// Whether the left operand of an operator is evaluated first, and a container before its index.
@@ -72,6 +76,9 @@ class Dialect {
   /// Whether children() and the operations are modules like others, whose arguments are all
   /// evaluated and checked; children() then always makes a group.
   const bool has_plain_children = row(false, true);
+  /// Whether loops, blocks and children() can be lists of nodes, where --enable=lazy-union asks for
+  /// it; else they are always groups.
+  const bool has_lazy_unions = row(false, true);
   /// Whether primitives refuse a block that has assignments only.
   const bool refuses_assignments = row(true, false);
   /// Whether the `$` names of a used file's top level are seen there alone, and not by what it
@@ -91,6 +98,9 @@ class Dialect {
   const bool misses_condition = row(true, false);
   /// The elements from which on a range is too long for the module for().
   const uint32_t too_many_rounds = row(10'000u, 1'000'000u);
+  /// Whether an evaluation that is aborted leaves the nodes of those statements of the top level
+  /// that had ended.
+  const bool keeps_nodes_of_aborted = row(false, true);
   /// Whether traces name assignments, and the parameters of modules.
   const bool has_full_traces = row(false, true);
 
@@ -119,6 +129,18 @@ class Dialect {
   /// Whether the place is said where a file that is included or used cannot be opened.
   const bool tells_place_of_missing_files = row(false, true);
 
+  /// Whether $vpt, $vpr and $vpd are the camera of the command line when a design begins; else they
+  /// are what OpenSCAD 2021.01 begins with.
+  const bool knows_camera = row(false, true);
+  /// Whether $fe, the largest error of a chord, is known, and written where it is above 0.
+  const bool has_chord_error = row(false, true);
+  /// Whether there are objects, with the functions that make and read them, and import() of JSON,
+  /// textmetrics() and fontmetrics(), which are experimental in OpenSCAD.
+  const bool has_objects = row(false, true);
+  /// Whether a function that is called as a member of an object gets that object as its parameter
+  /// `this`, unless the call gives one.
+  const bool has_methods = row(false, true);
+
   // Nodes, and their text in a .csg
 
   /// Whether matrices and lists of points are written by C's %g, which keeps -0; else as echo()
@@ -126,6 +148,8 @@ class Dialect {
   const bool writes_general_numbers = row(false, true);
   /// Whether color() checks its alpha, and what is no colour has none.
   const bool checks_alpha = row(false, true);
+  /// Whether "xkcd:dust" is a colour.
+  const bool has_survey_colors = row(false, true);
   /// Whether messages about colours have their names in small letters, and say where names are.
   const bool tells_of_web_colors = row(true, false);
 

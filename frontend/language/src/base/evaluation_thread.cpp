@@ -39,15 +39,15 @@ void look_whether_to_stop() {
   if (work_meter.stop && work_meter.stop->stop_requested()) throw Stopped();
 }
 
-void with_deep_stack(const std::function<void()>& work) {
+void with_deep_stack(uint32_t symbols, const std::function<void()>& work) {
   if (has_deep_stack) return work();
   // A parenthesis takes four frames, which take up to 4 kB where sanitizers widen them. Only what
   // is touched costs memory.
-  constexpr size_t kStackBytes = size_t{128} << 20;
+  constexpr size_t kBytesOfSymbol = 6700;
   Job job{work, nullptr};
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_attr_setstacksize(&attributes, symbols * kBytesOfSymbol);
   pthread_t thread;
   const bool is_running = pthread_create(&thread, &attributes, run, &job) == 0;
   pthread_attr_destroy(&attributes);

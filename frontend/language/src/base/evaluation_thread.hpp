@@ -34,9 +34,9 @@ class WorkWatch {
   WorkWatch& operator=(const WorkWatch&) = delete;
 };
 
-/// Calls `work` on a stack that holds some 20,000 nested symbols of a design, whatever the stack
-/// of the caller; within another such call on that call's. Returns when it has ended, and throws
+/// Calls `work` on a stack that holds so many nested symbols of a design, whatever the stack of the
+/// caller; within another such call on that call's. Returns when it has ended, and throws
 /// what it throws.
-void with_deep_stack(const std::function<void()>& work);
+void with_deep_stack(uint32_t symbols, const std::function<void()>& work);
 
 }  // namespace language

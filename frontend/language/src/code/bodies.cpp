@@ -81,8 +81,7 @@ void CodeCompiler::assert_arguments(std::span<const Argument> arguments, Place p
   warn_of_arguments(plan, place, false);
   const Expression* chosen[2] = {nullptr, nullptr};
   for (const ArgumentPlan::Step& step : plan.steps) {
-    if (!step.is_dropped && !step.target.is_dynamic && step.target.slot < 2)
-      chosen[step.target.slot] = arguments[step.argument].value;
+    if (step.is_for(2)) chosen[step.target.slot] = arguments[step.argument].value;
   }
   if (chosen[0]) {
     expression(*chosen[0]);

@@ -5,9 +5,10 @@
 
 namespace language {
 
-void CodeCompiler::end_region(uint32_t begin, Name name, const Expression* callee, Place place) {
+void CodeCompiler::end_region(uint32_t begin, Name name, const Expression* callee, Place place,
+                              bool is_tail) {
   const std::string_view text = name == kNoName ? std::string_view() : compiler_.names().text(name);
-  out_.code().regions.push_back({begin, out_.here(), text, callee, place});
+  out_.code().regions.push_back({begin, out_.here(), text, callee, place, false, is_tail});
 }
 
 void CodeCompiler::call(const CallExpression& call) {
@@ -36,10 +37,31 @@ void CodeCompiler::builtin_call(const CallExpression& call, Name name) {
   const size_t count = call.arguments.size();
   if (count < shape.least_arguments || count > shape.most_arguments)
     return wrong_count(call, shape.index);
+  if (!shape.parameters.empty()) return assigned_call(call, shape);
   if (shape.is_lazy) return lazy_call(call, shape.index);
   for (const Argument& argument : call.arguments) expression(*argument.value);
   out_.emit(Op::kCallBuiltin, call.place, 1 - static_cast<int>(count), shape.index,
             static_cast<uint32_t>(count));
+}
+
+/// Calls a builtin function with a value for each of its parameters.
+void CodeCompiler::assigned_call(const CallExpression& call, const FunctionShape& shape) {
+  const auto count = static_cast<uint32_t>(shape.parameters.size());
+  const ArgumentPlan plan =
+      compiler_.plan_builtin(shape.parameters, count, call.arguments, call.place);
+  const uint32_t base = out_.depth();
+  for (uint32_t slot = 0; slot < count; ++slot) out_.constant(Value::unset(), call.place);
+  for (const ArgumentPlan::Step& step : plan.steps) {
+    const Argument& argument = call.arguments[step.argument];
+    expression(*argument.value);
+    if (step.is_for(count)) {
+      out_.emit(Op::kStoreLocal, argument.place, -1, base + step.target.slot);
+    } else {
+      out_.emit(Op::kPop, argument.place, -1);
+    }
+  }
+  warn_of_arguments(plan, call.place, false);
+  out_.emit(Op::kCallBuiltin, call.place, 1 - static_cast<int>(count), shape.index, count);
 }
 
 void CodeCompiler::wrong_count(const CallExpression& call, uint32_t builtin) {
@@ -164,14 +186,34 @@ void CodeCompiler::static_call(const CallExpression& call, Found<FunctionEntry> 
   if (has_mark) out_.emit(Op::kEndDynamic, call.place, -1);
 }
 
+/// Pushes what a member or an index selects from, then what it selects.
+void CodeCompiler::method(const Expression& callee) {
+  const bool is_member = callee.kind == ExpressionKind::kMember;
+  expression(is_member ? *as<MemberExpression>(callee).container
+                       : *as<IndexExpression>(callee).container);
+  const uint32_t container = out_.depth() - 1;
+  if (is_member) {
+    out_.emit(Op::kMemberLocal, callee.place, 1, as<MemberExpression>(callee).member, container,
+              kNoPosition);
+  } else {
+    expression(*as<IndexExpression>(callee).index);
+    out_.emit(Op::kIndexLocal, callee.place, 0, 0, container);
+  }
+}
+
 void CodeCompiler::dynamic_call(const CallExpression& call, bool is_tail) {
+  const ExpressionKind kind = call.callee->kind;
   DynamicCall site;
   site.is_tail = is_tail;
+  site.is_method = compiler_.dialect().has_methods &&
+                   (kind == ExpressionKind::kMember || kind == ExpressionKind::kIndex);
   site.callee = call.callee;
   site.name = kNoName;
   site.arguments = call.arguments;
-  site.slot = out_.depth();
-  if (call.callee->kind == ExpressionKind::kVariable) {
+  site.slot = out_.depth() + (site.is_method ? 1 : 0);
+  if (site.is_method) {
+    method(*call.callee);
+  } else if (kind == ExpressionKind::kVariable) {
     site.name = as<VariableExpression>(*call.callee).name;
     if (is_dynamic_name(site.name, compiler_.names())) {
       out_.emit(Op::kDynamicSilently, call.callee->place, 1, site.name);
@@ -220,8 +262,9 @@ void CodeCompiler::dynamic_call(const CallExpression& call, bool is_tail) {
   }
   out_.land(done);
   site.end = out_.here();
-  out_.code().dynamic_calls[number] = std::move(site);
   out_.set_depth(full - count - 3);
+  if (site.is_method) out_.emit(Op::kSlide, call.place, -1, 1);
+  out_.code().dynamic_calls[number] = std::move(site);
 }
 
 }  // namespace language

@@ -1,6 +1,7 @@
 // Compiled code, and the definitions that it belongs to (LANGUAGE.md, "Scopes and calls").
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -88,10 +89,12 @@ struct DynamicCall {
   uint32_t unit = 0;
   std::optional<uint32_t> builtin;      // … or a builtin function
   bool is_tail = false;                 // it takes the place of the running function
+  bool is_method = false;               // the callee is a part of the value in the slot before it
   std::vector<uint32_t> argument_code;  // where the code of each argument begins
   uint32_t next = 0;                    // where kNextArgument stands
   uint32_t end = 0;                     // behind the call
-  mutable std::unordered_map<FunctionEntry*, ArgumentPlan> plans{};
+  /// By whether the callee gets an object as its parameter `this`.
+  mutable std::array<std::unordered_map<FunctionEntry*, ArgumentPlan>, 2> plans{};
 };
 
 /// A call of a builtin function that decides which of its arguments are evaluated. Its slots are:
@@ -109,6 +112,7 @@ struct NodeSite {
   NodeKind kind = NodeKind::kGroup;  // where no builtin module makes the node
   uint32_t module = 0;               // of builtin_modules()
   uint8_t modifiers = 0;
+  bool is_list = false;        // its nodes belong to the node around it, and it is none
   uint32_t parameters = 0;     // how many values kMakeNode pops
   std::string_view call_name;  // of the module, for messages
   std::string_view successor;  // what to use instead of a deprecated module
@@ -129,6 +133,7 @@ struct TraceRegion {
   const Expression* callee;
   Place place;
   bool is_assignment = false;  // to the name, and no call
+  bool is_tail = false;        // a call that takes the place of the running function's
 };
 
 struct Code {

@@ -80,10 +80,12 @@ class CodeCompiler {
   void call(const CallExpression& call);
   void named_call(const CallExpression& call, Name name);
   void builtin_call(const CallExpression& call, Name name);
+  void assigned_call(const CallExpression& call, const FunctionShape& shape);
   void wrong_count(const CallExpression& call, uint32_t builtin);
   void lazy_call(const CallExpression& call, uint32_t builtin);
   void static_call(const CallExpression& call, Found<FunctionEntry> found, bool is_tail);
   void dynamic_call(const CallExpression& call, bool is_tail);
+  void method(const Expression& callee);
   void is_undef_call(const CallExpression& call);
   void begin_call(const ParameterList& parameters, Place place, uint32_t number);
   void arguments(const ArgumentPlan& plan, std::span<const Argument> arguments, uint32_t base);
@@ -94,7 +96,8 @@ class CodeCompiler {
   void bind_parameters(const Callable& callable);
   bool binds_dynamic(const Callable& callable, const ArgumentPlan& plan) const;
   uint32_t begin_region() const { return out_.here(); }
-  void end_region(uint32_t begin, Name name, const Expression* callee, Place place);
+  void end_region(uint32_t begin, Name name, const Expression* callee, Place place,
+                  bool is_tail = false);
 
   // tails.cpp
   void tail(const Expression& expression);  // returns its value from the function
@@ -133,9 +136,12 @@ class CodeCompiler {
   bool special_statement(const ModuleCall& call);
   void if_statement(const ModuleCall& call);
   void plain_node(const ModuleCall& call, NodeKind kind);
+  void group_or_list(const ModuleCall& call);
   void operation_node(const ModuleCall& call, NodeKind kind);
   void node_if_children(const ModuleCall& call);
   uint32_t add_node_site(const ModuleCall& call, NodeKind kind);
+  uint32_t add_list_site(const ModuleCall& call);
+  void begin_list(const ModuleCall& call);
   void begin_node(const ModuleCall& call, NodeKind kind);
   void end_node(const ModuleCall& call, bool drop_if_empty = false);
   bool assigns_dynamic(const Scope& scope) const;
@@ -153,7 +159,7 @@ class CodeCompiler {
   void unused_arguments(const ModuleCall& call);
 
   // loops.cpp
-  void for_statement(const ModuleCall& call, NodeKind kind);
+  void for_statement(const ModuleCall& call);
   void for_rounds(std::span<const Argument> sources, const ModuleCall& call);
   void let_statement(const ModuleCall& call);
   void assign_statement(const ModuleCall& call);

@@ -22,14 +22,15 @@ Compiler::KnownNames::KnownNames(NameTable& names)
       group(names.intern("group")),
       union_(names.intern("union")),
       difference(names.intern("difference")),
-      intersection(names.intern("intersection")) {}
+      intersection(names.intern("intersection")),
+      this_(names.intern("this")) {}
 
 Compiler::Compiler(Program& program, DefinitionReader& definitions, Builtins builtins,
-                   bool check_parameters)
+                   const CompilerOptions& options)
     : program_(program),
       definitions_(definitions),
       builtins_(std::move(builtins)),
-      check_parameters_(check_parameters),
+      options_(options),
       known_(program.names),
       units_(program.units.size()) {}
 
@@ -50,11 +51,13 @@ void Compiler::prepare(Callable& callable) {
     if (target.is_dynamic) callable.has_default_code = true;
 }
 
-ArgumentPlan Compiler::plan(Callable& callable, std::span<const Argument> arguments, Place call) {
+ArgumentPlan Compiler::plan(Callable& callable, std::span<const Argument> arguments, Place call,
+                            Name taken) {
   prepare(callable);
   const size_t slots = callable.parameters.slot_names.size();
-  ArgumentPlan plan = plan_arguments(arguments, callable.parameters,
-                                     callable.parameters.targets.size(), call, names(), dialect());
+  ArgumentPlan plan =
+      plan_arguments(arguments, callable.parameters, callable.parameters.targets.size(), call,
+                     names(), dialect(), taken);
   if (callable.parameters.slot_names.size() != slots) callable.code = nullptr;
   return plan;
 }
@@ -62,17 +65,17 @@ ArgumentPlan Compiler::plan(Callable& callable, std::span<const Argument> argume
 ArgumentPlan Compiler::plan_module(ModuleEntry& module, std::span<const Argument> arguments,
                                    Place call) {
   ArgumentPlan result = plan(module, arguments, call);
-  if (!check_parameters_) {
+  if (!options_.check_parameters) {
     std::erase_if(result.warnings,
                   [](const ArgumentWarning& warning) { return warning.is_resolution; });
   }
   return result;
 }
 
-ArgumentPlan Compiler::plan_builtin(const ModuleShape& module, std::span<const Argument> arguments,
-                                    Place call) {
-  ParameterList parameters(module.parameters, names());
-  return plan_arguments(arguments, parameters, module.positional, call, names(), dialect());
+ArgumentPlan Compiler::plan_builtin(std::span<const Name> parameters, size_t positional,
+                                    std::span<const Argument> arguments, Place call) {
+  ParameterList list(parameters, names());
+  return plan_arguments(arguments, list, positional, call, names(), dialect());
 }
 
 template <typename Definition, typename Entry>

@@ -20,7 +20,8 @@ namespace language {
 struct FunctionShape {
   uint32_t index;  // in builtin_functions()
   uint16_t least_arguments, most_arguments;
-  bool is_lazy;  // it decides which arguments are evaluated
+  bool is_lazy;                    // it decides which arguments are evaluated
+  std::vector<Name> parameters{};  // that arguments are assigned to; empty: names are ignored
 };
 
 struct ModuleShape {
@@ -36,6 +37,11 @@ struct ModuleShape {
 struct Builtins {
   std::unordered_map<Name, FunctionShape> functions;
   std::unordered_map<Name, ModuleShape> modules;
+};
+
+struct CompilerOptions {
+  bool check_parameters = true;
+  bool lazy_union = false;  // loops, blocks and children() add their nodes to the node around them
 };
 
 class CodeCompiler;
@@ -58,7 +64,7 @@ struct Found {
 class Compiler {
  public:
   Compiler(Program& program, DefinitionReader& definitions, Builtins builtins,
-           bool check_parameters);
+           const CompilerOptions& options);
 
   UnitEntry& unit(uint32_t number);
   /// Each of the following compiles what it returns, unless that has happened.
@@ -71,11 +77,14 @@ class Compiler {
   void prepare(Callable& callable);
   /// Returns how the arguments of a call are assigned. Code of the callee that lacks a variable for
   /// one of them is discarded.
-  ArgumentPlan plan(Callable& callable, std::span<const Argument> arguments, Place call);
+  /// Unnamed arguments do not fill the parameter `taken`; kNoName: they fill all.
+  ArgumentPlan plan(Callable& callable, std::span<const Argument> arguments, Place call,
+                    Name taken = kNoName);
   ArgumentPlan plan_module(ModuleEntry& module, std::span<const Argument> arguments, Place call);
-  /// The same for a builtin module, whose parameters are all in order.
-  ArgumentPlan plan_builtin(const ModuleShape& module, std::span<const Argument> arguments,
-                            Place call);
+  /// The same for a builtin module, or a function that is called like one. Unnamed arguments fill
+  /// the first parameters.
+  ArgumentPlan plan_builtin(std::span<const Name> parameters, size_t positional,
+                            std::span<const Argument> arguments, Place call);
 
   Found<FunctionEntry> find_function(const ScopeLayout& from, Name name);
   Found<ModuleEntry> find_module(const ScopeLayout& from, Name name);
@@ -94,6 +103,7 @@ class Compiler {
   const NameTable& names() const { return program_.names; }
   const Dialect& dialect() const { return program_.dialect; }
   const Builtins& builtins() const { return builtins_; }
+  bool has_lazy_union() const { return options_.lazy_union && dialect().has_lazy_unions; }
   /// Returns whether the design reads $parent_modules.
   bool counts_modules() const { return names().find("$parent_modules") != kNoName; }
 
@@ -101,7 +111,7 @@ class Compiler {
   struct KnownNames {
     explicit KnownNames(NameTable& names);
     Name pi, is_undef, children, child, child_count, let, assign, for_, intersection_for, echo,
-        assert_, index, group, union_, difference, intersection;
+        assert_, index, group, union_, difference, intersection, this_;
   };
   const KnownNames& known() const { return known_; }
 
@@ -119,7 +129,7 @@ class Compiler {
   Program& program_;
   DefinitionReader& definitions_;
   Builtins builtins_;
-  bool check_parameters_;
+  CompilerOptions options_;
   KnownNames known_;
   std::vector<std::unique_ptr<UnitEntry>> units_;
   std::deque<FunctionEntry> functions_;

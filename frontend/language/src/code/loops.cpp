@@ -3,8 +3,8 @@
 
 namespace language {
 
-void CodeCompiler::for_statement(const ModuleCall& call, NodeKind kind) {
-  begin_node(call, kind);
+/// Runs the rounds in the node or list that has been begun, and ends it.
+void CodeCompiler::for_statement(const ModuleCall& call) {
   if (!call.arguments.empty()) {
     ScopeLayout& scope = open_scope(true, call.place);
     const uint32_t open = out_.here() - 1;
@@ -47,7 +47,7 @@ void CodeCompiler::let_statement(const ModuleCall& call) {
   out_.emit(Op::kMarkTrail, call.place, 1);
   open_scope(true, call.place);
   let_arguments(call.arguments, true);
-  plain_node(call, NodeKind::kGroup);
+  group_or_list(call);
   close_scope(call.place);
   out_.emit(Op::kUndoTrail, call.place, 0, base);
   drop_to(base, call.place);
@@ -77,7 +77,7 @@ void CodeCompiler::assign_statement(const ModuleCall& call) {
     store(argument->name, argument->place);
   }
   set_scope_size(open, scope);
-  plain_node(call, NodeKind::kGroup);
+  group_or_list(call);
   close_scope(call.place);
   out_.emit(Op::kUndoTrail, call.place, 0, base);
   drop_to(base, call.place);

@@ -114,7 +114,8 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
 /// `refused`: the node site of children that are refused, which is said where arguments come first.
 void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& module,
                                      std::optional<uint32_t> refused) {
-  const ArgumentPlan plan = compiler_.plan_builtin(module, call.arguments, call.place);
+  const ArgumentPlan plan =
+      compiler_.plan_builtin(module.parameters, module.positional, call.arguments, call.place);
   const bool is_first = compiler_.dialect().has_arguments_first;
   if (!is_first) warn_of_arguments(plan, call.place, false);
   std::vector<std::pair<Name, uint32_t>> late;  // `$` names, and where their values wait
@@ -138,7 +139,7 @@ void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& 
       out_.emit(Op::kStoreLocal, argument.place, -1, (next_late++)->second);
     } else if (step.target.is_dynamic) {
       out_.emit(Op::kBindDynamic, argument.place, -1, step.target.name);
-    } else if (!step.is_dropped && step.target.slot < count) {
+    } else if (step.is_for(count)) {
       out_.emit(Op::kStoreLocal, argument.place, -1, base + step.target.slot);
     } else {
       out_.emit(Op::kPop, argument.place, -1);
@@ -186,8 +187,8 @@ void CodeCompiler::plain_children_call(const ModuleCall& call, bool is_child) {
   shape.parameters = {compiler_.known().index};
   shape.positional = 1;
   builtin_arguments(call, shape);
-  const uint32_t none = out_.emit(Op::kRunChildren, call.place, -1, 0,
-                                  add_node_site(call, NodeKind::kGroup), is_child ? 1 : 0);
+  const uint32_t none =
+      out_.emit(Op::kRunChildren, call.place, -1, 0, add_list_site(call), is_child ? 1 : 0);
   end_node(call);
   out_.land(none);
   if (has_mark) out_.emit(Op::kUndoTrail, call.place, 0, start);

@@ -72,7 +72,7 @@ void order_as_written(std::vector<ArgumentPlan::Step>& steps, size_t arguments) 
 
 ArgumentPlan plan_arguments(std::span<const Argument> arguments, ParameterList& parameters,
                             size_t positional, Place call, const NameTable& names,
-                            const Dialect& dialect) {
+                            const Dialect& dialect, Name taken) {
   ArgumentPlan plan;
   // OpenSCAD 2021.01 gathers the arguments in such a table and evaluates them in its order, which
   // is therefore that of this library.
@@ -84,13 +84,16 @@ ArgumentPlan plan_arguments(std::span<const Argument> arguments, ParameterList& 
   const auto text_of_parameter = [&](size_t number) {
     return std::string(names.text(parameters.targets[number].name));
   };
+  const auto is_taken = [&](size_t number) {
+    return parameters.targets[number].name == taken || chosen.count(text_of_parameter(number));
+  };
   size_t position = 0;
   bool has_too_many = false;
   for (uint32_t number = 0; number < arguments.size(); ++number) {
     const Argument& argument = arguments[number];
     if (argument.name == kNoName) {
       if (dialect.fills_free_parameters)
-        while (position < positional && chosen.count(text_of_parameter(position))) ++position;
+        while (position < positional && is_taken(position)) ++position;
       if (position < positional) {
         chosen[text_of_parameter(position++)] = number;
       } else if (!has_too_many) {

@@ -59,15 +59,19 @@ struct ArgumentPlan {
     uint32_t argument;
     Target target;
     bool is_dropped = false;  // it is evaluated, and counts for nothing
+    /// Returns whether it gives one of the first slots, of so many, a value.
+    bool is_for(uint32_t slots) const {
+      return !is_dropped && !target.is_dynamic && target.slot < slots;
+    }
   };
   std::vector<Step> steps;  // in the order of evaluation
   std::vector<ArgumentWarning> warnings;
 };
 
 /// Resolves arguments as OpenSCAD does (LANGUAGE.md, "Scopes and calls"); `call` is the place of
-/// the call.
+/// the call. Where unnamed arguments fill free parameters, `taken` is none of these.
 ArgumentPlan plan_arguments(std::span<const Argument> arguments, ParameterList& parameters,
                             size_t positional, Place call, const NameTable& names,
-                            const Dialect& dialect);
+                            const Dialect& dialect, Name taken = kNoName);
 
 }  // namespace language

@@ -164,9 +164,11 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
   const Compiler::KnownNames& known = compiler_.known();
   const Name name = call.name;
   if (name == known.for_) {
-    for_statement(call, NodeKind::kGroup);
+    begin_list(call);
+    for_statement(call);
   } else if (name == known.intersection_for) {
-    for_statement(call, NodeKind::kIntersection);
+    begin_node(call, NodeKind::kIntersection);
+    for_statement(call);
   } else if (name == known.let) {
     let_statement(call);
   } else if (name == known.assign) {
@@ -194,11 +196,11 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
 void CodeCompiler::if_statement(const ModuleCall& call) {
   const uint32_t region = begin_region();
   const uint32_t is_false = jump_if_false(*call.condition);
-  plain_node(call, NodeKind::kGroup);
+  group_or_list(call);
   if (call.else_children) {
     const uint32_t done = out_.emit(Op::kJump, call.place, 0);
     out_.land(is_false);
-    begin_node(call, NodeKind::kGroup);
+    begin_list(call);
     block(*call.else_children);
     end_node(call);
     out_.land(done);
@@ -216,6 +218,17 @@ uint32_t CodeCompiler::add_node_site(const ModuleCall& call, NodeKind kind) {
   if (call.name != kNoName) site.call_name = compiler_.names().text(call.name);
   sites.push_back(site);
   return static_cast<uint32_t>(sites.size() - 1);
+}
+
+/// Adds the site of a group, or of a list in its place.
+uint32_t CodeCompiler::add_list_site(const ModuleCall& call) {
+  const uint32_t number = add_node_site(call, NodeKind::kGroup);
+  out_.code().node_sites[number].is_list = compiler_.has_lazy_union();
+  return number;
+}
+
+void CodeCompiler::begin_list(const ModuleCall& call) {
+  out_.emit(Op::kBeginNode, call.place, 0, add_list_site(call));
 }
 
 void CodeCompiler::begin_node(const ModuleCall& call, NodeKind kind) {
@@ -242,8 +255,14 @@ void CodeCompiler::plain_node(const ModuleCall& call, NodeKind kind) {
   end_node(call);
 }
 
+void CodeCompiler::group_or_list(const ModuleCall& call) {
+  begin_list(call);
+  block(*call.children);
+  end_node(call);
+}
+
 void CodeCompiler::node_if_children(const ModuleCall& call) {
-  begin_node(call, NodeKind::kGroup);
+  begin_list(call);
   block(*call.children);
   end_node(call, true);
 }

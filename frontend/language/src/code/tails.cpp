@@ -142,13 +142,14 @@ void CodeCompiler::any_tail_call(const CallExpression& call) {
   if (!is_named || compiler_.names().is_dynamic(name) || may_be_variable(name)) {
     dynamic_call(call, true);
   } else if (const auto found = compiler_.find_function(*scope_, name); found.entry == function_) {
-    return tail_jump(call);
+    tail_jump(call);
+    return end_region(region, name, call.callee, call.place, true);
   } else if (found.entry) {
     static_call(call, found, true);
   } else {
     named_call(call, name);
   }
-  end_region(region, name, call.callee, call.place);
+  end_region(region, name, call.callee, call.place, true);
   out_.emit(Op::kReturn, call.place, -1);
 }
 

@@ -8,7 +8,6 @@
 namespace language {
 namespace {
 
-constexpr int kTraceLimit = 12;  // lines per error
 constexpr uint32_t kTailLimit = 1000000;
 constexpr int64_t kMostNestedBytes = int64_t{96} << 20, kMostRoundsBytes = int64_t{256} << 20;
 
@@ -120,25 +119,40 @@ void CallStack::fail_recursion(const char* kind, std::string_view name, Place pl
 
 void CallStack::say_traces() {
   frames_.back().next = next_;
-  int count = 0;
+  uint32_t count = 0;
+  const Frame* callee = nullptr;  // the frame that the next call region has called
   for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
     set_unit(frame->code->unit);
     for (const TraceRegion& region : frame->code->regions) {
-      if (frame->next <= region.begin || frame->next > region.end) continue;
-      if (++count > kTraceLimit) return;
+      if (frame->next <= region.begin || frame->next > region.end || region.is_tail) continue;
+      if (++count > most_traces_) return;
+      // The call that has begun the callee anew counts in place of the first one.
+      const TraceRegion* const tail =
+          callee && !region.is_assignment ? tail_call(*std::exchange(callee, nullptr)) : nullptr;
+      const TraceRegion& told = tail ? *tail : region;
       const std::string name =
-          region.callee && region.name.empty() ? text_of(*region.callee) : std::string(region.name);
+          told.callee && told.name.empty() ? text_of(*told.callee) : std::string(told.name);
       const std::string text =
           region.is_assignment ? "assignment to \"" + name + "\"" : "called by '" + name + "'";
-      environment_.messages.say(MessageGroup::kTrace, text, region.place, PathBase::kUnit);
+      environment_.messages.say(MessageGroup::kTrace, text, told.place, PathBase::kUnit);
     }
-    if (!program_.dialect.has_full_traces || frame->kind != FrameKind::kModule ||
-        frame->next <= frame->code->statements)
+    callee = frame->kind == FrameKind::kFunction ? &*frame : nullptr;
+    if (!program_.dialect.has_full_traces || !traces_parameters_ ||
+        frame->kind != FrameKind::kModule || frame->next <= frame->code->statements)
       continue;
-    if (++count > kTraceLimit) return;
+    if (++count > most_traces_) return;
     environment_.messages.say(MessageGroup::kTrace, "call of '" + call_text(*frame) + "'",
                               frame->call, PathBase::kUnit);
   }
+}
+
+/// Returns the call in tail position that has begun a function's frame anew last; null: none has.
+const TraceRegion* CallStack::tail_call(const Frame& frame) const {
+  if (!frame.tail_code) return nullptr;
+  for (const TraceRegion& region : frame.tail_code->regions)
+    if (region.is_tail && frame.tail_next > region.begin && frame.tail_next <= region.end)
+      return &region;
+  return nullptr;
 }
 
 std::string CallStack::call_text(const Frame& frame) {
@@ -147,7 +161,7 @@ std::string CallStack::call_text(const Frame& frame) {
   for (uint32_t slot = 0; slot < parameters.declared_slots; ++slot) {
     if (slot > 0) text += ", ";
     text += text_of(parameters.slot_names[slot]) + " = ";
-    append_echo_text(text, values[frame.base + slot]);
+    append_quoted_text(text, values[frame.base + slot]);
   }
   return text + ")";
 }

@@ -51,6 +51,8 @@ struct Frame {
   const Callable* callee = nullptr;  // of a function, or a user module
   Name called_as = kNoName;          // of a function value: the name in its call
   Place call{};                      // of a function value, or a user module
+  const Code* tail_code = nullptr;   // whose call in tail position has begun it anew; null: none
+  uint32_t tail_next = 0;            // the instruction behind that call
 };
 
 /// Owns what calls hold, innermost on top: frames, values, scopes, `$` names, and the records of
@@ -139,6 +141,11 @@ class CallStack {
   [[noreturn]] void fail_recursion(const char* kind, std::string_view name, Place place);
   /// Says the calls that enclose the place, from inside out.
   void say_traces();
+  /// Sets how many lines they take at most, and whether modules tell their parameters.
+  void set_traces(uint32_t most_lines, bool has_parameters) {
+    most_traces_ = most_lines;
+    traces_parameters_ = has_parameters;
+  }
 
  private:
   // A recursion that goes on for longer than these calls, and makes more than some bytes of values
@@ -149,6 +156,7 @@ class CallStack {
   bool takes_too_much() const;
   void enter(const Code& code, uint32_t next, uint32_t base, HeapScope* scope);
   std::string call_text(const Frame& frame);
+  const TraceRegion* tail_call(const Frame& frame) const;
   void set_unit(uint32_t unit);
 
   const Program& program_;
@@ -156,6 +164,8 @@ class CallStack {
   std::vector<Frame> frames_;
   std::vector<HeapScope*> unit_scopes_;
   uint32_t unit_ = 0;  // whose code runs
+  uint32_t most_traces_ = 12;
+  bool traces_parameters_ = true;
 
   // The innermost frame, as far as it changes.
   const Instruction* instructions_ = nullptr;

@@ -1,6 +1,7 @@
 #include "language/evaluation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <unordered_set>
 
@@ -38,10 +39,16 @@ Builtins builtin_shapes(NameTable& names, const Dialect& dialect) {
   Builtins builtins;
   uint32_t index = 0;
   for (const BuiltinFunction& function : builtin_functions()) {
+    const uint32_t number = index++;
+    if (function.is_experimental && !dialect.has_objects) continue;
     const Arity arity = arity_of(function, dialect);
     const bool is_lazy =
         function.next_argument != nullptr && (dialect.has_lazy_functions || function.reads_names);
-    builtins.functions[names.intern(function.name)] = {index++, arity.least, arity.most, is_lazy};
+    FunctionShape& shape = builtins.functions[names.intern(function.name)];
+    shape = {number, arity.least, arity.most, is_lazy};
+    if (dialect.has_lazy_functions) continue;
+    for (const std::string_view parameter : function.parameters)
+      shape.parameters.push_back(names.intern(parameter));
   }
   index = 0;
   for (const BuiltinModule& module : builtin_modules(dialect.version)) {
@@ -55,6 +62,13 @@ std::shared_ptr<KeptSources> sources_of(const EvaluationOptions& options) {
   if (!options.cache) return std::make_shared<KeptSources>();
   options.cache->begin(options.language);
   return options.cache->sources();
+}
+
+std::vector<std::string> font_files(const Program& program) {
+  std::vector<std::string> files;
+  for (const Unit& unit : program.units)
+    files.insert(files.end(), unit.fonts.begin(), unit.fonts.end());
+  return files;
 }
 
 // One evaluation, from text to nodes.
@@ -116,6 +130,13 @@ void Session::abort() {
   *tree_ = {};
 }
 
+// Returns an angle from 0 to below 360 degrees.
+double whole_turn(double angle_deg) {
+  constexpr double kTurn_deg = 360;
+  const double rest = std::fmod(angle_deg, kTurn_deg);
+  return rest < 0 ? rest + kTurn_deg : rest;
+}
+
 Value numbers(std::initializer_list<double> list) {
   Value vector = make_vector(list.size());
   for (const double number : list) append_element(vector, number);
@@ -128,9 +149,14 @@ void Session::preset_names(Machine& machine) const {
   machine.preset("$fs", 2.0);
   machine.preset("$t", options_.time);
   machine.preset("$preview", Value::boolean(options_.is_preview));
-  machine.preset("$vpt", numbers({0, 0, 0}));
-  machine.preset("$vpr", numbers({0, 0, 0}));
-  machine.preset("$vpd", 500.0);
+  if (program_->dialect.has_chord_error) machine.preset("$fe", 0.0);
+  ViewCamera view{{0, 0, 0}, {0, 0, 0}, 500};
+  if (program_->dialect.knows_camera) view = options_.view;
+  const auto& [x, y, z] = view.translation;
+  const auto& [x_deg, y_deg, z_deg] = view.rotation_deg;
+  machine.preset("$vpt", numbers({x, y, z}));
+  machine.preset("$vpr", numbers({whole_turn(x_deg), whole_turn(y_deg), whole_turn(z_deg)}));
+  machine.preset("$vpd", view.distance);
   machine.preset("$vpf", 22.5);
 }
 
@@ -202,7 +228,12 @@ void Session::run_program(Machine& machine) {
     machine.run_assignments();
     machine.run_calls();
   } catch (const Aborted&) {
-    abort();
+    if (program_->dialect.keeps_nodes_of_aborted) {
+      result_.outcome = Outcome::kAborted;
+      machine.remove_open_nodes();
+    } else {
+      abort();
+    }
     machine.end_early();
   }
   machine_ = nullptr;
@@ -221,16 +252,18 @@ void Session::evaluate_program() {
   keep_freed_memory();
   object_memory.limit = kMemoryLimit;
   for (const std::string_view name :
-       {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
+       {"$fn", "$fa", "$fs", "$fe", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
     program_->names.intern(name);
   DefinitionReader definitions(*program_, messages_, options_.stop);
   Compiler compiler(*program_, definitions, builtin_shapes(program_->names, program_->dialect),
-                    options_.check_parameters);
+                    {options_.check_parameters, options_.lazy_union});
   const std::string& folder = program_->units[0].folder;
   NamedFiles files(messages_, folder);
   ModuleEnvironment modules{program_->dialect, messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   preset_names(machine);
+  machine.set_traces(options_.traces.most_lines, options_.traces.has_parameters);
+  machine.use_fonts(options_.text_meter.get(), font_files(*program_));
   try {
     run_program(machine);
     read_camera(machine);
@@ -272,7 +305,7 @@ void Session::parse_and_evaluate() {
 }
 
 Evaluation Session::run() {
-  with_deep_stack([this] { parse_and_evaluate(); });
+  with_deep_stack(program_->dialect.most_symbols, [this] { parse_and_evaluate(); });
   result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
   result_.tree = std::move(tree_);
   return std::move(result_);

@@ -70,7 +70,11 @@ void FunctionCalls::return_value() {
 
 /// Counts a tail call. Fails after too many.
 void FunctionCalls::check_rounds() {
-  if (!stack_.loops_too_long()) return;
+  if (!stack_.loops_too_long()) {
+    stack_.frame().tail_code = &stack_.code();
+    stack_.frame().tail_next = stack_.next();
+    return;
+  }
   const Frame& frame = stack_.frame();
   const bool is_named = frame.called_as == kNoName && frame.callee->name != kNoName;
   const Name name = is_named ? frame.callee->name : frame.called_as;
@@ -85,13 +89,15 @@ void FunctionCalls::tail_jump(uint32_t slots, uint32_t target) {
   stack_.jump(target);
 }
 
-void FunctionCalls::call_builtin(uint32_t index, uint32_t count) {
+void FunctionCalls::call_builtin(uint32_t index, uint32_t count,
+                                 std::span<const std::string_view> names) {
   const BuiltinFunction& function = builtins_[index];
   ValueStack& values = stack_.values;
   const std::span<Value> arguments(values.end() - count, count);
   stack_.recorder.note_builtin(function);
   const OperationLimit limit;
-  Value value = function.call({function.name, count, arguments, stack_.place(), environment_});
+  Value value =
+      function.call({function.name, count, arguments, stack_.place(), environment_, names});
   values.drop_to(values.size() - count);
   values.push(std::move(value));
 }
@@ -155,10 +161,20 @@ HeapScope* DynamicCalls::scope_of(const DynamicCall& site) {
                               : stack_.scope_around(site.is_in_unit, site.function_scope);
 }
 
+/// Returns the object whose member is called; null: it is none.
+const Value* DynamicCalls::object_of(const DynamicCall& site) {
+  if (!site.is_method) return nullptr;
+  const Value& container = stack_.slot(site.slot - 1);
+  return container.is_object() ? &container : nullptr;
+}
+
 const ArgumentPlan& DynamicCalls::plan_of(const DynamicCall& site, FunctionEntry& function) {
-  const auto found = site.plans.find(&function);
-  if (found != site.plans.end()) return found->second;
-  return site.plans.emplace(&function, compiler_.plan(function, site.arguments, stack_.place()))
+  const bool has_this = object_of(site) != nullptr;
+  auto& plans = site.plans[has_this ? 1 : 0];
+  const auto found = plans.find(&function);
+  if (found != plans.end()) return found->second;
+  const Name taken = has_this ? compiler_.known().this_ : kNoName;
+  return plans.emplace(&function, compiler_.plan(function, site.arguments, stack_.place(), taken))
       .first->second;
 }
 
@@ -238,11 +254,39 @@ void DynamicCalls::call(const DynamicCall& site) {
 void DynamicCalls::call_builtin(const DynamicCall& site) {
   ValueStack& values = stack_.values;
   values.drop();
-  functions_.call_builtin(*site.builtin, static_cast<uint32_t>(site.arguments.size()));
+  const FunctionShape& shape = compiler_.builtins().functions.at(site.name);
+  uint32_t count = static_cast<uint32_t>(site.arguments.size());
+  names_.clear();
+  if (shape.parameters.empty()) {
+    for (const Argument& argument : site.arguments)
+      names_.push_back(argument.name == kNoName ? std::string_view()
+                                                : compiler_.names().text(argument.name));
+  } else {
+    count = assign_arguments(site, shape);
+  }
+  functions_.call_builtin(*site.builtin, count, names_);
   Value value = values.pop();
   stack_.dynamic.undo(static_cast<uint32_t>(stack_.slot(site.slot + kMark).number()));
   values.drop_to(stack_.base() + site.slot);
   values.push(std::move(value));
+}
+
+/// Pushes what the arguments of a call give to the parameters of a builtin function. Returns how
+/// many there are.
+uint32_t DynamicCalls::assign_arguments(const DynamicCall& site, const FunctionShape& shape) {
+  const auto count = static_cast<uint32_t>(shape.parameters.size());
+  const ArgumentPlan plan =
+      compiler_.plan_builtin(shape.parameters, count, site.arguments, stack_.place());
+  for (const ArgumentWarning& warning : plan.warnings)
+    stack_.messages().warn(warning.text, warning.place, PathBase::kUnit);
+  parameters_.assign(count, Value::unset());
+  for (const ArgumentPlan::Step& step : plan.steps) {
+    if (step.is_for(count))
+      parameters_[step.target.slot] = stack_.slot(site.slot + kArguments + step.argument);
+  }
+  stack_.values.reserve(stack_.values.size() + count);
+  for (Value& parameter : parameters_) stack_.values.push(std::move(parameter));
+  return count;
 }
 
 void DynamicCalls::call_function(const DynamicCall& site, FunctionEntry& function) {
@@ -266,6 +310,10 @@ void DynamicCalls::call_function(const DynamicCall& site, FunctionEntry& functio
     parameters_ = function.initial;
   }
   parameters_.resize(code.slots, Value::unset());
+  if (const Value* const object = object_of(site)) {
+    const uint32_t slot = function.parameters.slot_names.find(compiler_.known().this_);
+    if (slot < function.parameters.declared_slots) parameters_[slot] = *object;
+  }
   for (const ArgumentPlan::Step& step : plan_of(site, function).steps) {
     if (!step.target.is_dynamic && !step.is_dropped)
       parameters_[step.target.slot] = std::move(values[base + kArguments + step.argument]);

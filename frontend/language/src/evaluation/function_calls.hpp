@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "code/compiler.hpp"
@@ -28,7 +29,7 @@ class FunctionCalls {
   void check_rounds();
   void tail_jump(uint32_t slots, uint32_t target);
   /// Calls a builtin function with the topmost values.
-  void call_builtin(uint32_t index, uint32_t count);
+  void call_builtin(uint32_t index, uint32_t count, std::span<const std::string_view> names = {});
   void next_lazy(const LazyCall& site);
   void keep_lazy(const LazyCall& site);
   void say_argument_warnings(uint32_t plan, bool once);
@@ -58,14 +59,17 @@ class DynamicCalls {
   bool refuse_callee(const DynamicCall& site);
   FunctionEntry* function_of(const DynamicCall& site);
   HeapScope* scope_of(const DynamicCall& site);
+  const Value* object_of(const DynamicCall& site);
   const ArgumentPlan& plan_of(const DynamicCall& site, FunctionEntry& function);
   void call_function(const DynamicCall& site, FunctionEntry& function);
   void call_builtin(const DynamicCall& site);
+  uint32_t assign_arguments(const DynamicCall& site, const FunctionShape& shape);
 
   Compiler& compiler_;
   CallStack& stack_;
   FunctionCalls& functions_;
-  std::vector<Value> parameters_;  // of the call that is being made
+  std::vector<Value> parameters_;        // of the call that is being made
+  std::vector<std::string_view> names_;  // of its arguments
 };
 
 }  // namespace language

@@ -26,6 +26,15 @@ class Machine {
 
   /// Gives a `$` name its value before the program begins.
   void preset(std::string_view name, Value value);
+  /// CallStack::set_traces().
+  void set_traces(uint32_t most_lines, bool has_parameters) {
+    stack_.set_traces(most_lines, has_parameters);
+  }
+  /// Lets textmetrics() and fontmetrics() ask for fonts, those of some files among them.
+  void use_fonts(TextMeter* meter, std::vector<std::string> files) {
+    environment_.text_meter = meter;
+    environment_.fonts = std::move(files);
+  }
   /// Evaluates an expression where no variable is known, and returns the type of its value. Throws
   /// like run_assignments().
   ValueType type_of(const Expression& expression);
@@ -38,6 +47,8 @@ class Machine {
   void run_calls();
   /// Forgets the `$` names of calls that Aborted has ended.
   void end_early();
+  /// Removes the nodes that these calls have left open, with all in them.
+  void remove_open_nodes() { modules_.remove_open_nodes(); }
 
  private:
   void run();                             // run.cpp; until the first call has ended

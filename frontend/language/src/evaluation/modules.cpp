@@ -35,17 +35,40 @@ ModuleCalls::ModuleCalls(Compiler& compiler, ModuleEnvironment& environment,
       fragments_number_(compiler.names().find("$fn")),
       fragments_angle_(compiler.names().find("$fa")),
       fragments_size_(compiler.names().find("$fs")),
+      fragments_error_(compiler.dialect().has_chord_error ? compiler.names().find("$fe") : kNoName),
       parent_modules_(compiler.names().find("$parent_modules")) {}
 
-void ModuleCalls::begin_node(NodeKind kind, uint8_t modifiers) {
-  open_nodes_.push_back(tree_.open(kind, modifiers, stack_.place()));
+void ModuleCalls::begin_node(NodeKind kind, uint8_t modifiers, bool is_list) {
+  const uint32_t first = is_list ? tree_.size() : tree_.open(kind, modifiers, stack_.place());
+  open_nodes_.push_back({first, modifiers, is_list});
 }
 
 void ModuleCalls::end_node(bool drop_if_empty) {
-  const uint32_t node = open_nodes_.back();
+  const OpenNode open = open_nodes_.back();
   open_nodes_.pop_back();
-  tree_.close(node);
-  if (drop_if_empty && tree_.nodes[node].end == node + 1) tree_.remove(node);
+  if (open.is_list) {
+    if (!drop_if_empty || open.first < tree_.size()) note_list();
+    if (open.modifiers == 0) return;
+    for (uint32_t node = open.first; node < tree_.size(); ++node)
+      tree_.nodes[node].modifiers |= open.modifiers;
+    return;
+  }
+  tree_.close(open.first);
+  if (drop_if_empty && tree_.nodes[open.first].end == open.first + 1) tree_.remove(open.first);
+}
+
+/// Lets the innermost node know that a list belongs to it.
+void ModuleCalls::note_list() {
+  for (auto open = open_nodes_.rbegin(); open != open_nodes_.rend(); ++open) {
+    if (open->is_list) continue;
+    tree_.nodes[open->first].has_lists = true;
+    return;
+  }
+}
+
+void ModuleCalls::remove_open_nodes() {
+  if (!open_nodes_.empty() && open_nodes_.front().first < tree_.size())
+    tree_.remove(open_nodes_.front().first);
 }
 
 BuiltinCall ModuleCalls::builtin_call(const NodeSite& site, bool has_first) {
@@ -56,6 +79,7 @@ BuiltinCall ModuleCalls::builtin_call(const NodeSite& site, bool has_first) {
           dynamic_value(fragments_number_),
           dynamic_value(fragments_angle_),
           dynamic_value(fragments_size_),
+          fragments_error_ == kNoName ? Value::undef() : dynamic_value(fragments_error_),
           stack_.place(),
           environment_};
 }
@@ -98,7 +122,7 @@ void ModuleCalls::call(const CallSite& site) {
   }
   HeapScope* const scope = stack_.take_scope_around(site.is_in_unit, site.scope);
   begin_node(NodeKind::kGroup, site.modifiers);
-  tree_.nodes[open_nodes_.back()].is_module_call = true;
+  tree_.nodes[open_nodes_.back().first].is_module_call = true;
   activations_.push_back({&module, site.block, block_scope, stack_.frame().activation});
   const Code& code = compiler_.code_of(module);
   stack_.push(code, stack_.values.size() - site.slots, scope, FrameKind::kModule,

@@ -29,8 +29,10 @@ class ModuleCalls {
   ModuleCalls(Compiler& compiler, ModuleEnvironment& environment,
               std::vector<std::string_view>& names, NodeTree& tree, CallStack& stack);
 
-  void begin_node(const NodeSite& site) { begin_node(site.kind, site.modifiers); }
+  void begin_node(const NodeSite& site) { begin_node(site.kind, site.modifiers, site.is_list); }
   void end_node(bool drop_if_empty);
+  /// Removes the nodes that an aborted evaluation has left open, with all in them.
+  void remove_open_nodes();
   /// Makes the node of a builtin module, and goes to `no_children` if it gets none.
   void make_node(const NodeSite& site, uint32_t no_children, bool takes_children);
   bool wants_first(const NodeSite& site);
@@ -51,7 +53,16 @@ class ModuleCalls {
   void pop_overwritten(Name parameter, Name module);
 
  private:
-  void begin_node(NodeKind kind, uint8_t modifiers);
+  /// A node that is open in the tree; or a list, which is none: its nodes belong to the node around
+  /// it.
+  struct OpenNode {
+    uint32_t first;  // itself; of a list, the first of its nodes
+    uint8_t modifiers;
+    bool is_list;
+  };
+
+  void begin_node(NodeKind kind, uint8_t modifiers, bool is_list = false);
+  void note_list();
   BuiltinCall builtin_call(const NodeSite& site, bool has_first);
   Value dynamic_value(Name name);
 
@@ -61,10 +72,12 @@ class ModuleCalls {
   NodeTree& tree_;
   CallStack& stack_;
   const std::span<const BuiltinModule> builtins_;
-  std::vector<uint32_t> open_nodes_;  // of the tree, from outside in
+  std::vector<OpenNode> open_nodes_;  // from outside in
   std::vector<Activation> activations_;
   std::vector<HeapScope*> block_scopes_;  // of blocks whose modules are about to be called
-  const Name fragments_number_, fragments_angle_, fragments_size_, parent_modules_;
+  const Name fragments_number_, fragments_angle_, fragments_size_;
+  const Name fragments_error_;  // kNoName: it is not known
+  const Name parent_modules_;
 };
 
 /// children() and child(), which run the children of a user module's call.

@@ -4,6 +4,7 @@
 
 #include "base/utf8.hpp"
 #include "language/make.hpp"
+#include "values/members_object.hpp"
 #include "values/range.hpp"
 #include "values/value_text.hpp"
 
@@ -20,6 +21,14 @@ void append_characters(Value& vector, std::string_view text) {
     count_work();
     append_element(vector, make_string(text.substr(0, length)));
   }
+}
+
+Value keys_of(const MembersObject& object) {
+  const auto members = object.keys_and_values();
+  count_work(members.size());
+  Value keys = language::make_vector(object.size());
+  for (size_t i = 0; i < members.size(); i += 2) append_in_room(keys, members[i]);
+  return keys;
 }
 
 }  // namespace
@@ -163,6 +172,8 @@ void ValueOperations::begin_loop(uint16_t kind) {
     }
   } else if (source.is_undef()) {
     source = language::make_vector();
+  } else if (source.is_object()) {
+    source = keys_of(source.members());
   } else if (source.is_string()) {
     Value characters = language::make_vector();
     append_characters(characters, source.text());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "functions/text_parameters.hpp"
+
 namespace language::functions {
 namespace {
 
@@ -39,6 +41,9 @@ size_t next_of_lookup(const FunctionCall& call) {
 namespace language {
 namespace {
 
+constexpr std::string_view kImportParameters[] = {"file"};
+constexpr std::string_view kFontParameters[] = {"size", "font"};
+
 constexpr BuiltinFunction kFunctions[] = {
     {"abs", 1, 1, functions::absolute},
     {"acos", 1, 1, functions::arc_cosine},
@@ -50,14 +55,42 @@ constexpr BuiltinFunction kFunctions[] = {
     {"concat", 0, kAnyCount, functions::concatenation},
     {"cos", 1, 1, functions::cosine},
     {"cross", 0, kAnyCount, functions::cross, functions::next_of_exactly_two, {2, 2}},
-    {"dxf_cross", 0, kAnyCount, functions::drawing_cross, functions::next_of_drawing, {}, true},
-    {"dxf_dim", 0, kAnyCount, functions::drawing_dimension, functions::next_of_drawing, {}, true},
+    {"dxf_cross",
+     0,
+     kAnyCount,
+     functions::drawing_cross,
+     functions::next_of_drawing,
+     {},
+     true,
+     false,
+     functions::kDrawingParameters},
+    {"dxf_dim",
+     0,
+     kAnyCount,
+     functions::drawing_dimension,
+     functions::next_of_drawing,
+     {},
+     true,
+     false,
+     functions::kDrawingParameters},
     {"exp", 1, 1, functions::exponential},
     {"floor", 1, 1, functions::floor},
+    {"fontmetrics",
+     0,
+     kAnyCount,
+     functions::font_metrics,
+     nullptr,
+     {},
+     false,
+     true,
+     kFontParameters},
+    {"has_key", 2, 2, functions::has_key, nullptr, {}, false, true},
+    {"import", 0, kAnyCount, functions::imported_json, nullptr, {}, false, true, kImportParameters},
     {"is_bool", 1, 1, functions::is_bool},
     {"is_function", 1, 1, functions::is_function},
     {"is_list", 1, 1, functions::is_list},
     {"is_num", 1, 1, functions::is_number},
+    {"is_object", 1, 1, functions::is_object, nullptr, {}, false, true},
     {"is_string", 1, 1, functions::is_string},
     {"len", 1, 1, functions::length},
     {"ln", 1, 1, functions::natural_logarithm},
@@ -76,6 +109,7 @@ constexpr BuiltinFunction kFunctions[] = {
      functions::next_while_numbers,
      {1, kAnyCount, "at least 1"}},
     {"norm", 1, 1, functions::norm},
+    {"object", 0, kAnyCount, functions::object, functions::next_of_object, {}, true, true},
     {"ord", 0, kAnyCount, functions::code_point, functions::next_of_exactly_one, {1, 1}},
     {"parent_module", 0, 1, functions::parent_module, nullptr, {0, 1, "1"}},
     {"pow", 2, 2, functions::power},
@@ -87,6 +121,15 @@ constexpr BuiltinFunction kFunctions[] = {
     {"sqrt", 1, 1, functions::square_root},
     {"str", 0, kAnyCount, functions::string},
     {"tan", 1, 1, functions::tangent},
+    {"textmetrics",
+     0,
+     kAnyCount,
+     functions::text_metrics,
+     nullptr,
+     {},
+     false,
+     true,
+     kTextParameters},
     {"version", 0, kAnyCount, functions::version, functions::next_of_none},
     {"version_num", 0, kAnyCount, functions::version_number, functions::next_of_one},
 };

@@ -39,6 +39,7 @@
 #include "base/dialect.hpp"
 #include "files/named_files.hpp"
 #include "language/source_files.hpp"
+#include "language/text_meter.hpp"
 #include "language/value.hpp"
 #include "messages/messages.hpp"
 
@@ -54,6 +55,9 @@ struct FunctionEnvironment {
   std::vector<std::string_view> module_names{};
   /// What dxf_dim() and dxf_cross() have found.
   std::unordered_map<std::string, Value> measures{};
+  /// What textmetrics() and fontmetrics() ask; null: there are no fonts.
+  TextMeter* text_meter = nullptr;
+  std::vector<std::string> fonts{};  // files that the design brings along
 };
 
 struct FunctionCall {
@@ -90,8 +94,12 @@ struct BuiltinFunction {
   /// to the call's arguments, also where an argument is evaluated for a second time. Null: all are
   /// evaluated, in the order in which they are written.
   size_t (*next_argument)(const FunctionCall& call) = nullptr;
-  Arity arity_of_2026{};     // where it is another one, or has words
-  bool reads_names = false;  // of its arguments
+  Arity arity_of_2026{};         // where it is another one, or has words
+  bool reads_names = false;      // of its arguments
+  bool is_experimental = false;  // only where there are objects
+  /// Of a function that is called like a module in 2026: arguments are assigned to these by their
+  /// names and positions, and what is not given is unset. Empty: names are ignored.
+  std::span<const std::string_view> parameters{};
 };
 
 /// Returns how many arguments a function takes in a dialect.
@@ -106,6 +114,10 @@ std::span<const BuiltinFunction> builtin_functions();
 }  // namespace language
 
 namespace language::functions {
+
+/// Of dxf_dim() and dxf_cross().
+inline constexpr std::string_view kDrawingParameters[] = {"file", "layer", "origin", "scale",
+                                                          "name"};
 
 // numbers.cpp
 Value absolute(const FunctionCall& call);
@@ -144,6 +156,18 @@ Value lookup(const FunctionCall& call);
 Value search(const FunctionCall& call);
 Value random_numbers(const FunctionCall& call);
 
+// objects.cpp
+Value object(const FunctionCall& call);
+Value has_key(const FunctionCall& call);
+Value is_object(const FunctionCall& call);
+
+// json.cpp
+Value imported_json(const FunctionCall& call);
+
+// metrics.cpp
+Value text_metrics(const FunctionCall& call);
+Value font_metrics(const FunctionCall& call);
+
 // drawings.cpp
 Value drawing_dimension(const FunctionCall& call);
 Value drawing_cross(const FunctionCall& call);
@@ -158,9 +182,9 @@ Value is_string(const FunctionCall& call);
 Value is_function(const FunctionCall& call);
 Value parent_module(const FunctionCall& call);
 
-/// The rules by which arguments are evaluated: until one is no number; none; the first alone; the
-/// first four; all if there are as many as the function takes, else none; lookup()'s key, which is
-/// evaluated twice if it is no finite number, and then its table if it is.
+/// The rules by which arguments are evaluated: until one is no number; none; the first alone;
+/// the first four; all if there are as many as the function takes, else none; lookup()'s key, which
+/// is evaluated twice if it is no finite number, and then its table if it is.
 size_t next_while_numbers(const FunctionCall& call);
 size_t next_of_none(const FunctionCall& call);
 size_t next_of_one(const FunctionCall& call);
@@ -169,6 +193,8 @@ size_t next_of_exactly_one(const FunctionCall& call);
 size_t next_of_exactly_two(const FunctionCall& call);
 size_t next_of_lookup(const FunctionCall& call);
 
+/// object() stops at the first argument that says no members.
+size_t next_of_object(const FunctionCall& call);
 /// The same of chr(), rands(), dxf_dim() and dxf_cross(), which warn of an argument before the next
 /// one is evaluated.
 size_t next_of_characters(const FunctionCall& call);

@@ -63,8 +63,16 @@ bool has_name(const FunctionCall& call) { return call.name == "dxf_dim"; }
 
 Request request_of(const FunctionCall& call) {
   Request request;
-  for (size_t i = 0; i < call.arguments.size(); ++i)
-    take(call.names[i], call.arguments[i], has_name(call), request);
+  const bool has_names = call.environment.dialect.has_lazy_functions;
+  for (size_t i = 0; i < call.arguments.size(); ++i) {
+    const Value& value = call.arguments[i];
+    if (has_names) {
+      take(call.names[i], value, has_name(call), request);
+    } else if (value.is_set()) {
+      const std::string problem = take(kDrawingParameters[i], value, true, request);
+      if (!problem.empty()) call.warn(std::string(call.name) + "(..., " + problem);
+    }
+  }
   return request;
 }
 

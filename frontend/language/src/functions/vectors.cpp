@@ -4,6 +4,7 @@
 
 #include "functions/builtin_functions.hpp"
 #include "language/make.hpp"
+#include "values/members_object.hpp"
 
 namespace language::functions {
 namespace {
@@ -76,6 +77,7 @@ Value cross(const FunctionCall& call) {
 Value length(const FunctionCall& call) {
   const Value& argument = call.arguments[0];
   if (argument.is_vector()) return static_cast<double>(argument.elements().size());
+  if (argument.is_object()) return static_cast<double>(argument.members().size());
   if (!argument.is_string()) return not_converted(call, 0, "string");
   return static_cast<double>(static_cast<const StringObject&>(*argument.object()).code_points);
 }

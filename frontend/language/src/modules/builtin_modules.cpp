@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "functions/text_parameters.hpp"
+
 namespace language {
 namespace {
 
@@ -16,9 +18,11 @@ constexpr std::string_view kCylinderNamed[] = {"r", "d", "d1", "d2"};
 constexpr std::string_view kPolyhedron[] = {"points", "faces", "convexity"};
 constexpr std::string_view kTriangles[] = {"triangles"};
 constexpr std::string_view kPolygon[] = {"points", "paths", "convexity"};
-constexpr std::string_view kText[] = {"text", "size", "font"};
-constexpr std::string_view kTextNamed[] = {"direction", "language", "script",
-                                           "halign",    "valign",   "spacing"};
+constexpr size_t kPositionalOfText = 3;
+constexpr Names kText = Names(kTextParameters).first(kPositionalOfText);
+constexpr Names kTextNamed =
+    Names(kTextParameters).first(kOldTextParameters).subspan(kPositionalOfText);
+constexpr Names kNewTextNamed = Names(kTextParameters).subspan(kPositionalOfText);
 constexpr std::string_view kV[] = {"v"};
 constexpr std::string_view kRotate[] = {"a", "v"};
 constexpr std::string_view kM[] = {"m"};
@@ -101,7 +105,7 @@ constexpr BuiltinModule kModulesOf2026[] = {
     {"roof", kRoof, {}, kTakes, make_roof},
     {"rotate_extrude", kNewRotateExtrude, kNewRotateExtrudeNamed, kTakes, make_rotate_extrude_2026},
     {"surface", kSurface, kInvert, kRefuses, make_surface},
-    {"text", kText, kTextNamed, kRefuses, make_text_2026},
+    {"text", kText, kNewTextNamed, kRefuses, make_text_2026},
 };
 
 std::vector<BuiltinModule> modules_of_2026() {

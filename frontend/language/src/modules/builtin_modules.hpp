@@ -31,7 +31,7 @@ struct BuiltinCall {
   /// The first argument, evaluated once more; unset unless BuiltinModule::wants_first asked for it.
   Value first;
   /// $fn, $fa and $fs as the call sees them.
-  Value fragments_number, fragments_angle, fragments_size;
+  Value fragments_number, fragments_angle, fragments_size, fragments_error;
   Place place;  // of the call
   ModuleEnvironment& environment;
 };

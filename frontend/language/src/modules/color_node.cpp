@@ -44,7 +44,7 @@ Rgba color_of_vector(const BuiltinCall& call, std::span<const Value> channels) {
 }
 
 Rgba color_of_text(const BuiltinCall& call, std::string_view name) {
-  const std::optional<Rgba> color = color_of_name(name);
+  const std::optional<Rgba> color = color_of_name(name, call.environment.dialect.has_survey_colors);
   if (color) return *color;
   const bool tells_more = call.environment.dialect.tells_of_web_colors;
   warn(call,

@@ -150,7 +150,7 @@ void append_nodes(std::string& out, const NodeTree& tree, uint32_t begin, uint32
   for (uint32_t i = begin; i < end; ++i) {
     close_until(i);
     append_head(out, tree, i, ends.size());
-    const bool has_children = tree.nodes[i].end > i + 1;
+    const bool has_children = tree.nodes[i].end > i + 1 || tree.nodes[i].has_lists;
     out += has_children ? " {\n" : ";\n";
     if (has_children) ends.push_back(tree.nodes[i].end);
   }

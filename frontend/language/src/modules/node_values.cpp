@@ -10,20 +10,12 @@
 
 namespace language {
 
-double number_or(const Value& value, double otherwise) {
-  return value.is_number() ? value.number() : otherwise;
-}
-
 int integer_or(const Value& value, int otherwise) {
   if (!value.is_number()) return otherwise;
   constexpr double kBeyond = 2147483648.0;  // 2^31
   const double number = value.number();
   const bool fits = number > -kBeyond - 1 && number < kBeyond;  // false for nan
   return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
-}
-
-std::string_view text_or(const Value& value, std::string_view otherwise) {
-  return value.is_string() ? value.text() : otherwise;
 }
 
 std::string str_or_nothing(const Value& value) {
@@ -63,15 +55,6 @@ bool read_vec3(const Value& value, std::array<double, 3>& xyz, double filler) {
   return true;
 }
 
-std::string shown(const Value& value) { return value.is_set() ? echo_text(value) : "undef"; }
-
-std::string wrong_type(std::string_view module, std::string_view parameter,
-                       std::string_view expected, const Value& found) {
-  return std::string(module) + "(..., " + std::string(parameter) + "=" + shown(found) +
-         ") Invalid type: expected " + std::string(expected) + ", found " +
-         std::string(type_name(found.type()));
-}
-
 void warn(const BuiltinCall& call, std::string text) {
   call.environment.messages.warn(std::move(text), call.place);
 }
@@ -82,7 +65,7 @@ void deprecate(const BuiltinCall& call, std::string text) {
 
 Fragments fragments_of(const BuiltinCall& call) {
   return {number_or(call.fragments_number, 0), number_or(call.fragments_angle, 0),
-          number_or(call.fragments_size, 0)};
+          number_or(call.fragments_size, 0), number_or(call.fragments_error, 0)};
 }
 
 Fragments clamped_fragments(const BuiltinCall& call) {
@@ -122,6 +105,7 @@ void add_fragments(NodeTree& tree, const Fragments& fragments) {
   add(tree, "$fn", fragments.number);
   add(tree, "$fa", fragments.angle);
   add(tree, "$fs", fragments.size);
+  if (fragments.error > 0) add(tree, "$fe", fragments.error);
 }
 
 }  // namespace language

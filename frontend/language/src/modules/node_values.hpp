@@ -8,19 +8,13 @@
 #include <string_view>
 
 #include "modules/builtin_modules.hpp"
+#include "values/parameter_values.hpp"
 
 namespace language {
 
-/// Returns whether a parameter is given and is not undef.
-inline bool is_given(const Value& value) { return value.is_set() && !value.is_undef(); }
-
-/// Returns the number, or `otherwise` if the value is none.
-double number_or(const Value& value, double otherwise);
 /// Returns the number as C casts it to int, which yields the least int for all that does not fit;
 /// `otherwise` if the value is none.
 int integer_or(const Value& value, int otherwise);
-/// Returns the string, or `otherwise` if the value is none.
-std::string_view text_or(const Value& value, std::string_view otherwise);
 /// Returns the text of a value as str() makes it; nothing of one that is not given.
 std::string str_or_nothing(const Value& value);
 /// Returns whether the value is the boolean true.
@@ -35,18 +29,14 @@ bool read_vec2(const Value& value, double& x, double& y);
 /// elements counts as converted: if one of them is no number, only z is set.
 bool read_vec3(const Value& value, std::array<double, 3>& xyz, double filler);
 
-/// Returns a text with the value as echo() shows it: undef if it is not set.
-std::string shown(const Value& value);
-/// Returns what is said of a parameter of another type than the expected one.
-std::string wrong_type(std::string_view module, std::string_view parameter,
-                       std::string_view expected, const Value& found);
 void warn(const BuiltinCall& call, std::string text);
 /// Says what is deprecated, without a place.
 void deprecate(const BuiltinCall& call, std::string text);
 
-/// $fn, $fa, $fs as numbers; what is no number is 0.
+/// $fn, $fa, $fs, $fe as numbers; what is no number is 0.
 struct Fragments {
   double number, angle, size;
+  double error = 0;  // of a chord; 0: any
 };
 Fragments fragments_of(const BuiltinCall& call);
 /// The same as primitives take them: $fs and $fa are at least 0.01, with a warning for less.

@@ -240,7 +240,7 @@ std::optional<std::vector<CustomizerParameter>> customizer_parameters(std::strin
                                                                       LanguageVersion version) {
   Program program(dialect_of(version));
   const Scope* scope = nullptr;
-  with_deep_stack([&] { scope = parse_alone(program, text); });
+  with_deep_stack(program.dialect.most_symbols, [&] { scope = parse_alone(program, text); });
   if (!scope) return std::nullopt;
   const ParameterComments comments(text);
   std::vector<CustomizerParameter> parameters;

@@ -34,7 +34,8 @@ ParseOutcome parse_here(Program& program, Messages& messages, const std::string&
 ParseOutcome parse_program(Program& program, Messages& messages, const std::string& path,
                            const ParseOptions& options) {
   ParseOutcome outcome{};
-  with_deep_stack([&] { outcome = parse_here(program, messages, path, options); });
+  with_deep_stack(program.dialect.most_symbols,
+                  [&] { outcome = parse_here(program, messages, path, options); });
   return outcome;
 }
 

@@ -205,9 +205,9 @@ class Parser {
 class Parser::Nested {
  public:
   Nested(Parser& parser, uint32_t symbols) : parser_(parser), symbols_(symbols) {
-    constexpr uint32_t kMostSymbols = 19'994;
     parser_.depth_ += symbols_;
-    if (parser_.depth_ > kMostSymbols) parser_.lexer_.fail("memory exhausted");
+    if (parser_.depth_ > parser_.program_.dialect.most_symbols)
+      parser_.lexer_.fail("memory exhausted");
   }
   Nested(const Nested&) = delete;
   Nested& operator=(const Nested&) = delete;

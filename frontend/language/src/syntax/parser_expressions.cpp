@@ -119,11 +119,10 @@ const Expression* Parser::parse_prefixed(UnaryOperator op) {
 /// Reads the calls, indices and members behind an operand, and its exponent. Calls nest to the
 /// left: f()()() is no chain that a loop could follow.
 const Expression* Parser::parse_postfix(const Expression* operand, Place start) {
-  constexpr uint32_t kMostCalls = 20'000;
   for (uint32_t calls = 0;;) {
     switch (peek().kind) {
       case TokenKind::kOpenParenthesis: {
-        if (++calls > kMostCalls) lexer_.fail("memory exhausted");
+        if (++calls > program_.dialect.most_chained_calls) lexer_.fail("memory exhausted");
         const Nested nested(*this, 2);
         consume();
         const auto arguments = parse_arguments();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "values/members_object.hpp"
 #include "values/operators.hpp"
 #include "values/range.hpp"
 #include "values/tree_map.hpp"
@@ -75,13 +76,23 @@ bool are_leaves_equal(const Value& left, const Value& right) {
   }
 }
 
-// Two vectors that are being compared; all elements below `next` are equal, or neither is less.
+// Returns what a value consists of that has parts.
+std::span<const Value> parts_of(const Value& value) {
+  return value.is_vector() ? value.elements() : value.members().keys_and_values();
+}
+
+bool have_parts(const Value& left, const Value& right) {
+  return (left.is_vector() && right.is_vector()) || (left.is_object() && right.is_object());
+}
+
+// Two vectors, or objects, that are being compared; all elements below `next` are equal, or neither
+// is less.
 struct Pair {
   std::span<const Value> left, right;
   size_t next = 0;
 
   Pair(const Value& left_vector, const Value& right_vector)
-      : left(left_vector.elements()), right(right_vector.elements()) {}
+      : left(parts_of(left_vector)), right(parts_of(right_vector)) {}
   bool has_both() const { return next < left.size() && next < right.size(); }
 };
 
@@ -167,7 +178,7 @@ Value greater_equal(const Value& left, const Value& right, OperatorProblem& prob
 }  // namespace operators
 
 bool are_equal(const Value& left, const Value& right) {
-  if (!left.is_vector() || !right.is_vector()) return are_leaves_equal(left, right);
+  if (!have_parts(left, right)) return are_leaves_equal(left, right);
   LevelStack<Pair> pairs;
   pairs.push(left, right);
   while (!pairs.empty()) {
@@ -180,7 +191,7 @@ bool are_equal(const Value& left, const Value& right) {
     }
     const Value &a = pair.left[pair.next], &b = pair.right[pair.next];
     ++pair.next;
-    if (a.is_vector() && b.is_vector())
+    if (have_parts(a, b))
       pairs.push(a, b);
     else if (!are_leaves_equal(a, b))
       return false;
@@ -208,7 +219,7 @@ bool are_identical(const Value& left, const Value& right) {
         break;
     }
     if (a->object() == b->object()) continue;
-    if (a->is_function() || compared > kMostCompared) return false;
+    if (a->type() >= ValueType::kFunction || compared > kMostCompared) return false;
     if (a->is_string() && a->text() != b->text()) return false;
     if (a->is_range() && !are_same_ranges(a->range(), b->range())) return false;
     if (!a->is_vector()) continue;

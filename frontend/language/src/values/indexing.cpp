@@ -3,6 +3,7 @@
 
 #include "base/utf8.hpp"
 #include "language/make.hpp"
+#include "values/members_object.hpp"
 #include "values/operators.hpp"
 #include "values/range.hpp"
 
@@ -40,6 +41,11 @@ Value range_part(const RangeObject& range, uint32_t position) {
   }
 }
 
+Value member_of(const MembersObject& object, std::string_view name) {
+  const Value* const found = object.find(name);
+  return found ? *found : Value::undef();
+}
+
 Value element(const Value& vector, uint32_t position) {
   const auto elements = vector.elements();
   return position < elements.size() ? elements[position] : Value::undef();
@@ -48,6 +54,8 @@ Value element(const Value& vector, uint32_t position) {
 }  // namespace
 
 Value operators::index(const Value& container, const Value& index) {
+  if (container.is_object() && index.is_string())
+    return member_of(container.members(), index.text());
   const auto position = position_of(index);
   if (!position) return Value::undef();
   switch (container.type()) {
@@ -90,6 +98,7 @@ Value member(const Value& container, std::string_view name, const Dialect& diale
     if (position != std::string_view::npos)
       return element(container, static_cast<uint32_t>(position));
   }
+  if (container.is_object()) return member_of(container.members(), name);
   if (container.is_range()) {
     if (name == "begin") return container.range().begin;
     if (name == "step") return container.range().step;

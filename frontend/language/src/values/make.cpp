@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/utf8.hpp"
-#include "values/function_object.hpp"
+#include "values/compound_object.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"
 
@@ -49,20 +49,20 @@ void free_plain(SharedObject* object) {
     free_object(object, sizeof(RangeObject));
 }
 
-// Functions that are to be destroyed. A destructor may release further functions; they are listed
+// Compound objects that are to be destroyed. A destructor may release further ones; they are listed
 // here and destroyed one after the other, which keeps the depth of calls fixed.
-thread_local FunctionObject* dead_functions = nullptr;
-thread_local bool destroys_functions = false;
+thread_local CompoundObject* dead_compounds = nullptr;
+thread_local bool destroys_compounds = false;
 
-void destroy_function(FunctionObject* function) {
-  function->next_dead = std::exchange(dead_functions, function);
-  if (destroys_functions) return;
-  destroys_functions = true;
-  while (FunctionObject* next = dead_functions) {
-    dead_functions = next->next_dead;
+void destroy_compound(CompoundObject* compound) {
+  compound->next_dead = std::exchange(dead_compounds, compound);
+  if (destroys_compounds) return;
+  destroys_compounds = true;
+  while (CompoundObject* next = dead_compounds) {
+    dead_compounds = next->next_dead;
     delete next;
   }
-  destroys_functions = false;
+  destroys_compounds = false;
 }
 
 }  // namespace
@@ -186,8 +186,8 @@ class Destroyer {
 void Value::destroy(SharedObject* object) noexcept {
   if (object->type == ValueType::kVector)
     Destroyer().run(static_cast<VectorObject*>(object));
-  else if (object->type == ValueType::kFunction)
-    destroy_function(static_cast<FunctionObject*>(object));
+  else if (object->type >= ValueType::kFunction)
+    destroy_compound(static_cast<CompoundObject*>(object));
   else
     free_plain(object);
 }

@@ -2,20 +2,6 @@
 
 namespace language {
 
-bool Value::is_object_true() const {
-  switch (type_) {
-    case ValueType::kString:
-      return !text().empty();
-    case ValueType::kVector:
-      return !elements().empty();
-    case ValueType::kRange:
-    case ValueType::kFunction:
-      return true;
-    default:
-      return false;
-  }
-}
-
 std::string_view type_name(ValueType type) {
   switch (type) {
     case ValueType::kUnset:
@@ -33,6 +19,8 @@ std::string_view type_name(ValueType type) {
       return "range";
     case ValueType::kFunction:
       return "function";
+    case ValueType::kObject:
+      return "object";
   }
   return {};
 }

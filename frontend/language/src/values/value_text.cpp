@@ -5,6 +5,7 @@
 #include "base/evaluation_thread.hpp"
 #include "base/number_text.hpp"
 #include "values/function_object.hpp"
+#include "values/members_object.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"
 
@@ -27,7 +28,19 @@ void append_quoted(std::string& out, std::string_view text) {
   out += '"';
 }
 
-// Appends a value that is no vector.
+// Appends a string as an object shows its own: what is escaped in the language is escaped.
+void append_escaped(std::string& out, std::string_view text) {
+  constexpr std::string_view kEscaped = "\n\t\r\\\"", kLetters = "ntr\\\"";
+  out += '"';
+  for (const char c : text) {
+    const size_t found = kEscaped.find(c);
+    if (found != kEscaped.npos) out += '\\';
+    out += found == kEscaped.npos ? c : kLetters[found];
+  }
+  out += '"';
+}
+
+// Appends a value that has no parts.
 void append_leaf(std::string& out, const Value& value) {
   switch (value.type()) {
     case ValueType::kBool:
@@ -60,32 +73,66 @@ void check_shown(size_t bytes, size_t depth) {
     throw TooLarge("Stack exhausted while trying to convert a vector to EchoString");
 }
 
-// Appends a vector. What is being written lies on a stack of its own, since vectors nest deeply.
-// `check` is called for each element.
+// A vector or an object that is being written.
+struct OpenBracket {
+  std::span<const Value> rest;  // what is not written yet
+  bool is_object;
+};
+
+bool has_parts(const Value& value) { return value.is_vector() || value.is_object(); }
+
+OpenBracket opened(std::string& out, const Value& value) {
+  if (value.is_vector()) {
+    out += '[';
+    return {value.elements(), false};
+  }
+  out += "{ ";
+  return {value.members().keys_and_values(), true};
+}
+
+// Goes on behind a part.
+void separate(std::string& out, const OpenBracket& bracket) {
+  if (bracket.is_object) {
+    out += "; ";
+  } else if (!bracket.rest.empty()) {
+    out += ", ";
+  }
+}
+
+// Appends a vector or an object. What is being written lies on a stack of its own, since vectors
+// nest deeply. `check` is called for each part.
 template <typename Check>
-void append_vector(std::string& out, std::span<const Value> elements, Check check) {
-  std::vector<std::span<const Value>> rests{elements};  // of each open bracket, what is not written
-  out += '[';
+void append_parts(std::string& out, const Value& value, Check check) {
+  std::vector<OpenBracket> brackets{opened(out, value)};
   while (true) {
-    check(out.size(), rests.size());
+    check(out.size(), brackets.size());
     count_work(kWorkOfElement);
-    std::span<const Value>& rest = rests.back();
+    OpenBracket& bracket = brackets.back();
+    std::span<const Value>& rest = bracket.rest;
     if (rest.empty()) {
-      out += ']';
-      rests.pop_back();
-      if (rests.empty()) return;
-      if (!rests.back().empty()) out += ", ";
+      out += bracket.is_object ? '}' : ']';
+      brackets.pop_back();
+      if (brackets.empty()) return;
+      separate(out, brackets.back());
       continue;
     }
-    const Value& element = rest.front();
+    if (bracket.is_object) {
+      out += rest.front().text();
+      out += " = ";
+      rest = rest.subspan(1);
+    }
+    const Value& part = rest.front();
     rest = rest.subspan(1);
-    if (element.is_vector()) {
-      out += '[';
-      rests.push_back(element.elements());
+    if (has_parts(part)) {
+      brackets.push_back(opened(out, part));
       continue;
     }
-    append_leaf(out, element);
-    if (!rest.empty()) out += ", ";
+    if (bracket.is_object && part.is_string()) {
+      append_escaped(out, part.text());
+    } else {
+      append_leaf(out, part);
+    }
+    separate(out, bracket);
   }
 }
 
@@ -93,17 +140,23 @@ void append_vector(std::string& out, std::span<const Value> elements, Check chec
 
 void append_value_text(std::string& out, const Value& value) {
   const auto check = [](size_t bytes, size_t) { check_text_size(bytes); };
-  if (value.is_vector())
-    append_vector(out, value.elements(), check);
+  if (has_parts(value))
+    append_parts(out, value, check);
   else
     append_leaf(out, value);
 }
 
 void append_echo_text(std::string& out, const Value& value) {
-  if (value.is_vector())
-    append_vector(out, value.elements(), check_shown);
+  if (has_parts(value))
+    append_parts(out, value, check_shown);
   else
     append_leaf(out, value);
+  check_shown(out.size(), 0);
+}
+
+void append_quoted_text(std::string& out, const Value& value) {
+  if (!value.is_string()) return append_echo_text(out, value);
+  append_escaped(out, value.text());
   check_shown(out.size(), 0);
 }
 

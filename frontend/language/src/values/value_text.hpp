@@ -23,6 +23,10 @@ void append_echo_text(std::string& out, const Value& value);
 /// TooLarge.
 void append_str_text(std::string& out, const Value& value);
 
+/// Appends a value as echo() does, but of a string what is escaped in the language is escaped.
+/// Throws TooLarge.
+void append_quoted_text(std::string& out, const Value& value);
+
 /// Throws TooLarge.
 std::string echo_text(const Value& value);
 

@@ -1,5 +1,5 @@
 // Each script is what OpenSCAD 2021.01 writes for text() of the bytes.
-#include "modules/scripts.hpp"
+#include "functions/scripts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/scripts.hpp"
+#include "functions/scripts.hpp"
 
 #include <algorithm>
 #include <array>
