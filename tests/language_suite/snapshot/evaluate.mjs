@@ -1,7 +1,9 @@
 // Evaluates designs by OpenSCAD's snapshot of 2025.07.18. Each line of the standard input is a job, a JSON
-// object: `files` by path, `arguments` of the command line, `wanted`, a path that is read afterwards. Each
-// job is answered by a line: `status`, `said` (the messages) and `made` (the text of the wanted file, or
-// null). An instance of the program runs once; the next one is made while it is not needed yet.
+// object: `files` by path, `copies` of this computer's files by path, `arguments` of the command line,
+// `wanted`, a path that is read afterwards. Each job is answered by a line: `status`, `said` (the messages)
+// and `made` (the text of the wanted file, or null). An instance of the program runs once; the next one is
+// made while it is not needed yet.
+import { readFileSync } from "node:fs";
 import { createInterface } from "node:readline";
 
 // The package is found where it is installed, not beside this file.
@@ -21,6 +23,7 @@ function answer({ instance, said }, job) {
   instance.FS.mkdir(folder);
   instance.FS.chdir(folder);
   for (const [path, text] of Object.entries(job.files)) instance.FS.writeFile(path, text);
+  for (const [path, source] of Object.entries(job.copies ?? {})) instance.FS.writeFile(path, readFileSync(source));
   let status;
   try {
     status = instance.callMain(job.arguments);
