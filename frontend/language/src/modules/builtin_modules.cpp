@@ -11,19 +11,19 @@ namespace {
 using Names = std::span<const std::string_view>;
 
 constexpr std::string_view kSizeCenter[] = {"size", "center"};
-constexpr std::string_view kR[] = {"r"};
-constexpr std::string_view kD[] = {"d"};
+constexpr std::string_view kOnlyR[] = {"r"};
+constexpr std::string_view kOnlyD[] = {"d"};
 constexpr std::string_view kCylinder[] = {"h", "r1", "r2", "center"};
 constexpr std::string_view kCylinderNamed[] = {"r", "d", "d1", "d2"};
 constexpr std::string_view kPolyhedron[] = {"points", "faces", "convexity"};
-constexpr std::string_view kTriangles[] = {"triangles"};
+constexpr std::string_view kOnlyTriangles[] = {"triangles"};
 constexpr std::string_view kPolygon[] = {"points", "paths", "convexity"};
 constexpr size_t kPositionalOfText = 3;
 constexpr Names kText = Names(kTextParameters).first(kPositionalOfText);
 constexpr Names kTextNamed =
     Names(kTextParameters).first(kOldTextParameters).subspan(kPositionalOfText);
 constexpr Names kNewTextNamed = Names(kTextParameters).subspan(kPositionalOfText);
-constexpr std::string_view kV[] = {"v"};
+constexpr std::string_view kOnlyV[] = {"v"};
 constexpr std::string_view kRotate[] = {"a", "v"};
 constexpr std::string_view kM[] = {"m"};
 constexpr std::string_view kColor[] = {"c", "alpha"};
@@ -39,14 +39,14 @@ constexpr std::string_view kImport[] = {"file", "layer", "convexity", "origin", 
 constexpr std::string_view kImportNamed[] = {"width",     "height", "filename",
                                              "layername", "center", "dpi"};
 constexpr std::string_view kSurface[] = {"file", "center", "convexity"};
-constexpr std::string_view kInvert[] = {"invert"};
+constexpr std::string_view kOnlyInvert[] = {"invert"};
 
 constexpr auto kTakes = ChildRule::kTakes;
 constexpr auto kRefuses = ChildRule::kRefuses;
 constexpr auto kIgnores = ChildRule::kIgnores;
 
 constexpr BuiltinModule kModules[] = {
-    {"circle", kR, kD, kRefuses, make_circle},
+    {"circle", kOnlyR, kOnlyD, kRefuses, make_circle},
     {"color", kColor, {}, kTakes, make_color},
     {"cube", kSizeCenter, {}, kRefuses, make_cube},
     {"cylinder", kCylinder, kCylinderNamed, kRefuses, make_cylinder},
@@ -67,22 +67,22 @@ constexpr BuiltinModule kModules[] = {
      {},
      wants_height},
     {"minkowski", kOnlyConvexity, {}, kTakes, make_minkowski},
-    {"mirror", kV, {}, kTakes, make_mirror},
+    {"mirror", kOnlyV, {}, kTakes, make_mirror},
     {"multmatrix", kM, {}, kTakes, make_multmatrix},
-    {"offset", kR, kOffsetNamed, kTakes, make_offset},
+    {"offset", kOnlyR, kOffsetNamed, kTakes, make_offset},
     {"polygon", kPolygon, {}, kRefuses, make_polygon},
-    {"polyhedron", kPolyhedron, kTriangles, kRefuses, make_polyhedron},
+    {"polyhedron", kPolyhedron, kOnlyTriangles, kRefuses, make_polyhedron},
     {"projection", kCut, kOnlyConvexity, kTakes, make_projection},
     {"render", kOnlyConvexity, {}, kTakes, make_render},
     {"resize", kResize, {}, kTakes, make_resize},
     {"rotate", kRotate, {}, kTakes, make_rotate},
     {"rotate_extrude", kRotateExtrude, kRotateExtrudeNamed, kTakes, make_rotate_extrude},
-    {"scale", kV, {}, kTakes, make_scale},
-    {"sphere", kR, kD, kRefuses, make_sphere},
+    {"scale", kOnlyV, {}, kTakes, make_scale},
+    {"sphere", kOnlyR, kOnlyD, kRefuses, make_sphere},
     {"square", kSizeCenter, {}, kRefuses, make_square},
-    {"surface", kSurface, kInvert, kIgnores, make_surface},
+    {"surface", kSurface, kOnlyInvert, kIgnores, make_surface},
     {"text", kText, kTextNamed, kIgnores, make_text},
-    {"translate", kV, {}, kTakes, make_translate},
+    {"translate", kOnlyV, {}, kTakes, make_translate},
 };
 static_assert(std::ranges::is_sorted(kModules, {}, &BuiltinModule::name));
 
@@ -101,10 +101,10 @@ constexpr BuiltinModule kModulesOf2026[] = {
     {"import", kImport, kNewImportNamed, kRefuses, make_import_2026},
     {"linear_extrude", kNewLinearExtrude, kNewLinearExtrudeNamed, kTakes, make_linear_extrude_2026},
     {"polygon", kPolygon, {}, kRefuses, make_polygon_2026},
-    {"polyhedron", kPolyhedron, kTriangles, kRefuses, make_polyhedron_2026},
+    {"polyhedron", kPolyhedron, kOnlyTriangles, kRefuses, make_polyhedron_2026},
     {"roof", kRoof, {}, kTakes, make_roof},
     {"rotate_extrude", kNewRotateExtrude, kNewRotateExtrudeNamed, kTakes, make_rotate_extrude_2026},
-    {"surface", kSurface, kInvert, kRefuses, make_surface},
+    {"surface", kSurface, kOnlyInvert, kRefuses, make_surface},
     {"text", kText, kNewTextNamed, kRefuses, make_text_2026},
 };
 
