@@ -286,16 +286,16 @@ TEST_F(Validate, Failures) {
 }
 
 TEST_F(Validate, WhatCannotBeDrawnIsLeftOut) {
-  const std::string flat = folder_.write("flat.csg", "roof() { square(); }");
+  const std::string flat = folder_.write("flat.csg", "cube(1e308);");
   for (const char* option : {"--skip-unsupported", "--seed=1"}) {
     const Outcome outcome = run({option, "--renderer=cpu", "--time-limit=0", flat});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: roof is left out"));
+    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: cube is left out"));
   }
 }
 
 TEST_F(Validate, SaysWhatItDoesNotJudge) {
-  const Outcome outcome = run_few({folder_.write("a.csg", "cube(1); roof() { square(); }")});
+  const Outcome outcome = run_few({folder_.write("a.csg", "cube(1); cube(1e308);")});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("1 node is left out, and was not judged\n"));
 }

@@ -80,12 +80,12 @@ TEST_F(Opening, StandardInput) {
 
 TEST_F(Opening, WhatCannotBeDrawnIsLeftOutAndListed) {
   const std::string design =
-      folder_.write("a.csg", kBlock + "roof() {\n\tsquare(size = [1, 1]);\n}\n");
+      folder_.write("a.csg", kBlock + "cube(size = 1e308);\n");
   open(design);
   const json line = next();
   EXPECT_EQ(line["error"], "");
   EXPECT_THAT(line["messages"].get<std::vector<std::string>>(),
-              ElementsAre(AllOf(HasSubstr("a.csg:7:1: warning: "), HasSubstr("roof"))));
+              ElementsAre(AllOf(HasSubstr("a.csg:7:1: warning: "), HasSubstr("cube is left out"))));
   const Picture with_messages = shown();
   key("m");  // hides the messages
   wait_until_other(with_messages);

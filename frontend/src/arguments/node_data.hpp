@@ -64,6 +64,12 @@ struct RotateExtrudeNode {
   bool is_faceted = false;
 };
 
+struct RoofNode {
+  bool is_straight = false;  // by the straight skeleton; else by the distance from the outline
+  csgcore::FacetSettings facets;
+  bool is_faceted = false;  // its cones have OpenSCAD's number of facets
+};
+
 struct ProjectionNode {
   bool is_cut = false;  // it is a section; else it is a shadow
 };
@@ -75,6 +81,6 @@ using NodeColor = std::optional<csgcore::Color>;
 using NodeData =
     std::variant<std::monostate, RoundNode, csgcore::Box, std::shared_ptr<const FaceSet>,
                  FileArguments, FigureNode, TextNode, FileMatrix, NodeColor, OffsetSettings,
-                 ResizeArguments, LinearExtrudeNode, RotateExtrudeNode, ProjectionNode>;
+                 ResizeArguments, LinearExtrudeNode, RotateExtrudeNode, RoofNode, ProjectionNode>;
 
 }  // namespace frontend

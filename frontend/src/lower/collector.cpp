@@ -99,7 +99,7 @@ FaceSet flat_faces_of(const Primitive& primitive) {
 }
 
 /// Returns by how much a node stretches its children, at most, as far as it tells. A revolution
-/// counts as 2: it has half of the tolerance, and its figure the other half.
+/// and a roof count as 2: they have half of the tolerance, and their figures the other half.
 double stretch_of(const NodeData& data) {
   if (const auto* matrix = std::get_if<FileMatrix>(&data)) {
     const double stretch = is_affine(*matrix) ? stretch_bound(heal(*matrix).map.linear) : 1;
@@ -109,7 +109,9 @@ double stretch_of(const NodeData& data) {
     const Vec2& scale = extrusion->arguments.top_scale;
     return std::max({1.0, scale.x, scale.y});
   }
-  return std::holds_alternative<RotateExtrudeNode>(data) ? 2 : 1;
+  const bool has_half =
+      std::holds_alternative<RotateExtrudeNode>(data) || std::holds_alternative<RoofNode>(data);
+  return has_half ? 2 : 1;
 }
 
 /// Tells that a part of a final render has another dimension than the first one.
@@ -233,11 +235,7 @@ bool Collector::visit(uint32_t index) {
     case Role::kWhole:
       add_plane(index);
       return false;
-    case Role::kUnknown:
-      break;
   }
-  // Without children it makes nothing, and nothing is missing.
-  if (has_children(index)) leave_out(index, std::string(kBecauseUnknown));
   return false;
 }
 
@@ -463,7 +461,7 @@ int Collector::dimension_of(uint32_t root) const {
     const NodeRow& row = row_of(node.kind);
     const bool is_background =
         (modifiers_of(tree_, selected, i) & language::kBackgroundModifier) != 0;
-    if (is_background || row.role == Role::kUnknown) {
+    if (is_background) {
       i = node.end;
       continue;
     }

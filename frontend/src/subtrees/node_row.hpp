@@ -27,7 +27,6 @@ enum class Role : uint8_t {
   kSolid,      // it is a primitive
   kOperation,  // its children are leaves, or hold them
   kWhole,      // it is one leaf with all below it: a plane figure, an extrusion, a hull
-  kUnknown,    // OpenSCAD 2021.01 does not know it
 };
 
 /// Which parts with `%` and `#` within a node are drawn by themselves.
@@ -93,8 +92,6 @@ inline NodeData read_node(NodeReader& reader, const NodeSources& sources) {
   const NodeRow& row = row_of(reader.node().kind);
   return row.read == nullptr ? NodeData() : row.read(reader, sources);
 }
-
-constexpr std::string_view kBecauseUnknown = "OpenSCAD 2021.01 does not know it";
 
 /// Returns a node's facets, or those that the user asks for in their place.
 csgcore::FacetSettings chosen(const NodeSources& sources, csgcore::FacetSettings facets);

@@ -57,9 +57,6 @@ void PlaneEvaluation::find_presence(uint32_t node) {
     own.presence = drawing->figures.empty() ? Presence::kEmpty : Presence::kSolid;
   } else if (syntax.kind == NodeKind::kProjection) {
     project(node);
-  } else if (row.role == Role::kUnknown) {
-    own.presence = Presence::kLeftOut;
-    leave_out_(node, kBecauseUnknown);
   } else if (row.is_primitive()) {
     own.dimension = row.dimension;
     own.presence = is_empty_figure(subtree_.data(node)) ? Presence::kEmpty : Presence::kSolid;

@@ -113,12 +113,12 @@ TEST(ImporterOperations, AMillionLevelsDeep) {
 
 TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
   const ImportedDesign design =
-      import_text("sphere();\nroof() { square(1); }\n cube(1e308);\nroof() { square(1); }");
+      import_text("sphere();\ncylinder(1e308);\n cube(1e308);\ncylinder(1e308);");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
-  EXPECT_EQ(
+  EXPECT_THAT(
       design.warnings[0].text,
-      "a.csg:2:1: warning: roof is left out; the first of 2 (OpenSCAD 2021.01 does not know it)");
+      testing::StartsWith("a.csg:2:1: warning: cylinder is left out; the first of 2 (it is too "));
   EXPECT_EQ(
       design.warnings[1].text,
       "a.csg:3:2: warning: cube is left out (it is too large, or too far from the origin: scale "
@@ -127,29 +127,25 @@ TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
 }
 
 TEST(ImporterUnsupported, MayBeAllThereIs) {
-  const ImportedDesign design = import_text("roof() { square(); }");
+  const ImportedDesign design = import_text("cube(1e308);");
   EXPECT_TRUE(design.scene.primitives.empty());
   EXPECT_TRUE(design.view_box.empty());
   EXPECT_THAT(design.warnings, SizeIs(1));
 }
 
 TEST(ImporterUnsupported, LeavesTheRestAsItWouldBeWithout) {
-  EXPECT_EQ(model_of("difference() { sphere(); roof() { square(); } sphere(); }"), "(0-2)");
-  EXPECT_EQ(model_of("intersection() { sphere(); group() { roof() { square(); } } }"), "0");
-  EXPECT_EQ(model_of("union() { roof() { square(); } sphere(); }"), "1");
+  EXPECT_EQ(model_of("difference() { sphere(); cube(1e308); sphere(); }"), "(0-2)");
+  EXPECT_EQ(model_of("intersection() { sphere(); group() { cube(1e308); } }"), "0");
+  EXPECT_EQ(model_of("union() { cube(1e308); sphere(); }"), "1");
 }
 
 TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
   // The holes of a plate that is not drawn must not appear as bodies.
-  EXPECT_EQ(model_of("difference() { roof() { square(); } sphere(); } sphere();"), "2");
-  EXPECT_EQ(
-      model_of("difference() { group() { roof() { square(); } group(); } sphere(); } sphere();"),
-      "2");
-  EXPECT_EQ(model_of("difference() { group() { roof() { square(); } sphere(); } sphere(); }"),
-            "(1-2)");
-  EXPECT_EQ(
-      model_of("intersection() { difference() { roof() { square(); } sphere(); } sphere(); }"),
-      "2");
+  EXPECT_EQ(model_of("difference() { cube(1e308); sphere(); } sphere();"), "2");
+  EXPECT_EQ(model_of("difference() { group() { cube(1e308); group(); } sphere(); } sphere();"),
+            "2");
+  EXPECT_EQ(model_of("difference() { group() { cube(1e308); sphere(); } sphere(); }"), "(1-2)");
+  EXPECT_EQ(model_of("intersection() { difference() { cube(1e308); sphere(); } sphere(); }"), "2");
 }
 
 // --- What `!` selects, and where primitives stand -------------------------------------------

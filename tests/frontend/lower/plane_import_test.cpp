@@ -519,11 +519,17 @@ TEST(RotateExtrude, HasOpenScadsRings) {
 }
 
 TEST(PlaneImport, LeavesOutWhatItCannotDraw) {
-  EXPECT_THAT(warning_of(extruded("square(2); roof() { square(1); }")),
-              HasSubstr("roof is left out"));
-  EXPECT_EQ(model_of(extruded("square(2); roof() { square(1); }")), "0");
-  EXPECT_EQ(model_of("difference() {" + extruded("roof() { square(1); }") + "cube(1); } sphere();"),
-            "2")
+  // Each edge of this polygon crosses nearly all others.
+  constexpr int kCorners = 1501;
+  std::string tangle = "offset(r = 1) { polygon([";
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = kCorners / 2 * i * 2 * std::numbers::pi / kCorners;
+    tangle += "[" + std::to_string(std::cos(angle)) + ", " + std::to_string(std::sin(angle)) + "],";
+  }
+  tangle += "]); }";
+  EXPECT_THAT(warning_of(extruded("square(2);" + tangle)), HasSubstr("offset is left out"));
+  EXPECT_EQ(model_of(extruded("square(2);" + tangle)), "0");
+  EXPECT_EQ(model_of("difference() {" + extruded(tangle) + "cube(1); } sphere();"), "2")
       << "no hole becomes a body";
 }
 
