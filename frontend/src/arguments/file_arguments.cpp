@@ -17,7 +17,7 @@ std::string_view file_of(const NodeReader& reader) {
 FileArguments read_file(NodeReader& reader) {
   const ArgumentValue file = reader.find("file", 0);
   if (!file.is_string()) reader.tell_wrong_type("file", file, "a name");
-  return {std::string(file_of(reader))};
+  return {.file = std::string(file_of(reader))};
 }
 
 /// The number, or the first of a list: an extrusion's `scale` scales its drawing, too.
@@ -38,7 +38,12 @@ Vec2 read_origin(const NodeReader& reader) {
 
 }  // namespace
 
-FileArguments read_import(NodeReader& reader) { return read_file(reader); }
+FileArguments read_import(NodeReader& reader) {
+  FileArguments result = read_file(reader);
+  result.is_of_2026 = !reader.find("center").is_undef();
+  result.is_centered = reader.center();
+  return result;
+}
 
 FileArguments read_surface(NodeReader& reader) {
   FileArguments result = read_file(reader);
@@ -75,6 +80,7 @@ DrawingArguments read_drawing(NodeReader& reader) {
     result.svg.dpi = first_number(reader, "dpi").value_or(result.svg.dpi);
     return result;
   }
+  result.dxf.is_centered = reader.node().kind == NodeKind::kImport && reader.is_true("center");
   result.dxf.layer = reader.text("layer");
   result.dxf.origin = read_origin(reader);
   result.dxf.scale = first_number(reader, "scale").value_or(result.dxf.scale);

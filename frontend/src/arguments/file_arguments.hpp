@@ -14,8 +14,10 @@ namespace frontend {
 /// What a node says of the file of its solid. The file's name is as it stands in the design, empty
 /// if it is missing.
 struct FileArguments {
-  std::string file;
+  std::string file{};
   bool is_surface = false;  // else of an import
+  /// The import is by 2026's rules: that writes `center` of every file, 2021.01 of drawings alone.
+  bool is_of_2026 = false;
   bool is_centered = false, is_inverted = false;
 };
 FileArguments read_import(NodeReader& reader);

@@ -208,6 +208,14 @@ bool is_disc(const Figure& figure) { return std::holds_alternative<Disc>(figure)
 
 }  // namespace
 
+void move_middle_to(const Vec2& place, std::vector<Figure>& figures) {
+  Rectangle box;
+  for (const Figure& figure : figures) box.merge(bounds_of(figure));
+  if (box.empty()) return;
+  const PlaneMap map{glm::dmat2(1.0), place - (box.min + box.max) / 2.0};
+  for (Figure& figure : figures) figure = mapped(map, figure);
+}
+
 std::vector<Figure> disjoint_figures(std::vector<Figure> figures) {
   if (figures.empty()) return figures;
   constexpr size_t kManyEdges = 1 << 18;  // to unite so many polygons takes about a second

@@ -30,6 +30,7 @@ struct DxfSettings {
   std::string layer{};  // empty: all layers
   Vec2 origin{0.0};
   double scale = 1;  // ≤ 0 or nan: 1
+  bool is_centered = false;
   csgcore::FacetSettings facets{};
   /// Curves are OpenSCAD's chords; else they are exact.
   bool is_faceted = false;
@@ -53,6 +54,9 @@ void leave_out_tangles(const std::string& name, bool are_others_left_out, Drawin
 Drawing read_dxf(std::string_view bytes, const std::string& name, const DxfSettings& settings);
 /// SVG: paths, rectangles, circles, ellipses, lines, polylines, polygons and groups.
 Drawing read_svg(std::string_view bytes, const std::string& name, const SvgSettings& settings);
+
+/// Moves the middle of the figures' box to a place.
+void move_middle_to(const Vec2& place, std::vector<Figure>& figures);
 
 /// Returns figures with the union of these: those whose boxes are disjoint become one outline, and
 /// so do polygons that meet, and any figures that meet if there are many. If there are few discs,

@@ -185,7 +185,7 @@ class SvgReader {
     } else {
       add_curves();
     }
-    if (settings_.is_centered) move_to_middle(figures_);
+    if (settings_.is_centered) move_middle_to(page_.middle(), figures_);
     drawing_.figures = disjoint_figures(std::move(figures_));
     leave_out_tangles(name_, has_tangles_, drawing_);
     return std::move(drawing_);
@@ -349,14 +349,6 @@ class SvgReader {
 
   void add_figure(Outline outline) {
     if (!outline.loops.empty()) figures_.push_back(std::move(outline));
-  }
-
-  void move_to_middle(std::vector<Figure>& figures) const {
-    Rectangle box;
-    for (const Figure& figure : figures) box.merge(bounds_of(figure));
-    if (box.empty()) return;
-    const PlaneMap map{glm::dmat2(1.0), page_.middle() - (box.min + box.max) / 2.0};
-    for (Figure& figure : figures) figure = mapped(map, figure);
   }
 
   const std::string& name_;

@@ -28,6 +28,13 @@ SolidFile read_amf(std::string_view bytes, const std::string& name);
 /// 3MF: every mesh once. Its build items, transformations and units are ignored, as by OpenSCAD
 /// 2021.01.
 SolidFile read_3mf(std::string_view bytes, const std::string& name);
+/// 3MF by OpenSCAD 2026's rules: what its build is made of, by meshes and components under their
+/// transformations. Units are ignored. One that repeats parts so often that there would be more
+/// than 2^22 points cannot be read.
+SolidFile read_built_3mf(std::string_view bytes, const std::string& name);
+/// OBJ: its points and faces. A line that cannot be read is left out, and so is a corner that names
+/// no point; the problem tells of the first.
+SolidFile read_obj(std::string_view bytes, const std::string& name);
 /// NEF3, the text that CGAL writes of a Nef polyhedron: the faces that have it on one side, seen
 /// from the other. The coordinates in the text are fractions of whole numbers of any length; the
 /// results are within a rounding of them, or two. Sheets and lines without thickness are left out.

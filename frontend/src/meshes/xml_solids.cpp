@@ -1,10 +1,12 @@
 // AMF and 3MF: XML with the vertices and triangles of objects, within a zip archive (AMF: perhaps).
 
 #include <array>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "meshes/number_text.hpp"
 #include "meshes/read_solid_file.hpp"
@@ -160,6 +162,105 @@ bool read_model(std::string_view model, FaceSet& faces) {
   return is_right;
 }
 
+/// Returns the map that a `transform` attribute has; the identity where it is missing or damaged.
+csgcore::Affine transform_of(const pugi::xml_node& node) {
+  csgcore::Affine map;
+  std::string_view text = node.attribute("transform").value();
+  std::array<double, 12> numbers{};
+  for (double& number : numbers) {
+    const std::optional<double> read = number_of(take_word(text));
+    if (!read) return {};
+    number = *read;
+  }
+  for (int column = 0; column < 3; ++column) {
+    const auto first = static_cast<size_t>(3 * column);
+    map.linear[column] = {numbers[first], numbers[first + 1], numbers[first + 2]};
+  }
+  map.translation = {numbers[9], numbers[10], numbers[11]};
+  return map;
+}
+
+/// Puts together what the build of a 3MF model names.
+class BuiltModel {
+ public:
+  explicit BuiltModel(const pugi::xml_node& model) : model_(model) {
+    for_each_child(model, "resources", [&](const pugi::xml_node& resources) {
+      for_each_child(resources, "object", [&](const pugi::xml_node& object) {
+        objects_.try_emplace(object.attribute("id").value(), object);
+      });
+    });
+  }
+
+  /// Returns false if an object is missing, or a mesh is damaged, or there would be too much.
+  bool read(FaceSet& faces) {
+    for_each_child(model_, "build", [&](const pugi::xml_node& build) {
+      for_each_child(build, "item", [&](const pugi::xml_node& item) { open(item, {}); });
+    });
+    while (is_right_ && !parts_.empty()) {
+      const Part part = parts_.back();
+      parts_.pop_back();
+      for_each_child(part.object, "mesh",
+                     [&](const pugi::xml_node& mesh) { add(mesh, part.map, faces); });
+      for_each_child(part.object, "components", [&](const pugi::xml_node& components) {
+        for_each_child(components, "component",
+                       [&](const pugi::xml_node& component) { open(component, part.map); });
+      });
+    }
+    return is_right_;
+  }
+
+ private:
+  static constexpr size_t kMostPoints = size_t{1} << 22;
+  static constexpr size_t kMostParts = size_t{1} << 16;  // which may name themselves, too
+
+  struct Part {
+    pugi::xml_node object;
+    csgcore::Affine map;
+  };
+
+  void open(const pugi::xml_node& reference, const csgcore::Affine& around) {
+    const auto object = objects_.find(reference.attribute("objectid").value());
+    is_right_ = is_right_ && object != objects_.end() && ++part_count_ <= kMostParts;
+    if (is_right_) parts_.push_back({object->second, compose(around, transform_of(reference))});
+  }
+
+  void add(const pugi::xml_node& mesh, const csgcore::Affine& map, FaceSet& faces) {
+    const size_t first_point = faces.points.size(), first_corner = faces.corners.size();
+    is_right_ = is_right_ && read_mesh(mesh, faces) && faces.points.size() <= kMostPoints;
+    if (!is_right_) return;
+    for (size_t i = first_point; i < faces.points.size(); ++i) {
+      faces.points[i] = map.point(faces.points[i]);
+    }
+    if (map.determinant() >= 0) return;
+    for (size_t i = first_corner; i < faces.corners.size(); i += 3) {
+      std::swap(faces.corners[i], faces.corners[i + 1]);
+    }
+  }
+
+  pugi::xml_node model_;
+  std::map<std::string, pugi::xml_node> objects_;  // by their ids
+  std::vector<Part> parts_;                        // to be added
+  size_t part_count_ = 0;
+  bool is_right_ = true;
+};
+
+bool read_built_model(std::string_view model, FaceSet& faces) {
+  pugi::xml_document document;
+  return document.load_buffer(model.data(), model.size()) &&
+         BuiltModel(document.document_element()).read(faces);
+}
+
+SolidFile read_package(std::string_view bytes, const std::string& name,
+                       bool (*read)(std::string_view model, FaceSet& faces)) {
+  SolidFile file;
+  ZipArchive archive(bytes);
+  const std::optional<std::string> model = archive.unpack(model_name(archive));
+  if (model && read(*model, file.faces)) return file;
+  file.faces = {};
+  file.problem = "Could not read file '" + name + "'";
+  return file;
+}
+
 }  // namespace
 
 SolidFile read_amf(std::string_view bytes, const std::string& name) {
@@ -178,13 +279,11 @@ SolidFile read_amf(std::string_view bytes, const std::string& name) {
 }
 
 SolidFile read_3mf(std::string_view bytes, const std::string& name) {
-  SolidFile file;
-  ZipArchive archive(bytes);
-  const std::optional<std::string> model = archive.unpack(model_name(archive));
-  if (model && read_model(*model, file.faces)) return file;
-  file.faces = {};
-  file.problem = "Could not read file '" + name + "'";
-  return file;
+  return read_package(bytes, name, read_model);
+}
+
+SolidFile read_built_3mf(std::string_view bytes, const std::string& name) {
+  return read_package(bytes, name, read_built_model);
 }
 
 }  // namespace frontend

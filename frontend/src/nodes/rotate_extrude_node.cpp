@@ -46,8 +46,9 @@ TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius)
   sections.angle = arguments.angle;
   const double share = std::abs(arguments.angle) / 360;
   const double count = csgcore::fragment_count(radius, arguments.facets) * share;
-  const bool is_fine = arguments.facets.tolerance > 0;
-  sections.count = std::max(1, static_cast<int>(is_fine ? std::ceil(count) : count));
+  // 2021.01, which rounds down, knows no start.
+  const bool is_rounded_up = arguments.facets.tolerance > 0 || arguments.start;
+  sections.count = std::max(1, static_cast<int>(is_rounded_up ? std::ceil(count) : count));
   sections.start = arguments.start.value_or(sections.is_closed() ? 180 : 0);
   return sections;
 }

@@ -17,20 +17,38 @@
 namespace frontend {
 namespace {
 
+using ReadFile = SolidFile (*)(std::string_view bytes, const std::string& name);
 struct Format {
   std::string_view suffix;
-  SolidFile (*read)(std::string_view bytes, const std::string& name);
+  ReadFile read;          // by 2021.01's rules; null: it does not know the format
+  ReadFile read_by_2026;  // by 2026's
 };
-constexpr std::array<Format, 5> kFormats{{{".stl", read_stl},
-                                          {".off", read_off},
-                                          {".amf", read_amf},
-                                          {".3mf", read_3mf},
-                                          {".nef3", read_nef3}}};
+constexpr std::array<Format, 6> kFormats{{{".stl", read_stl, read_stl},
+                                          {".off", read_off, read_off},
+                                          {".amf", read_amf, read_amf},
+                                          {".3mf", read_3mf, read_built_3mf},
+                                          {".nef3", read_nef3, read_nef3},
+                                          {".obj", nullptr, read_obj}}};
 
 /// Returns the format of a solid's file, or the end of the list.
 auto format_of_solid(std::string_view name) {
   const std::string suffix = lower_case(std::filesystem::path(name).extension().string());
   return std::ranges::find(kFormats, suffix, &Format::suffix);
+}
+
+/// Returns what reads a file of that name; null if nothing does.
+ReadFile reader_of(std::string_view name, bool is_of_2026) {
+  const auto* const format = format_of_solid(name);
+  if (format == kFormats.end()) return nullptr;
+  return is_of_2026 ? format->read_by_2026 : format->read;
+}
+
+/// Moves the middle of the faces' box to the origin.
+void move_to_middle(FaceSet& faces) {
+  csgcore::Box box;
+  for (const uint32_t corner : faces.corners) box.merge(faces.points[corner]);
+  if (box.empty()) return;
+  for (csgcore::Vec3& point : faces.points) point -= box.center();
 }
 
 /// Returns nothing if there is no such file, or it cannot be read.
@@ -45,7 +63,7 @@ std::optional<FileText> bytes_of_file(const std::string& path) {
 }  // namespace
 
 bool is_importable(std::string_view name) {
-  return format_of_solid(name) != kFormats.end() || drawing_format_of(name).has_value();
+  return reader_of(name, false) != nullptr || drawing_format_of(name).has_value();
 }
 
 std::string FileImports::path_of(const std::string& name) {
@@ -55,8 +73,9 @@ std::string FileImports::path_of(const std::string& name) {
 }
 
 const ImportedFile& FileImports::import(const FileArguments& arguments) {
-  const auto [entry, is_new] = imports_.try_emplace(arguments.file);
-  if (is_new) entry->second = read_import(arguments.file);
+  const auto [entry, is_new] =
+      imports_.try_emplace({arguments.file, arguments.is_centered, arguments.is_of_2026});
+  if (is_new) entry->second = read_import(arguments);
   return entry->second;
 }
 
@@ -78,6 +97,7 @@ const ImportedDrawing& FileImports::drawing(const DrawingArguments& arguments) {
                               dxf.facets.fa,
                               dxf.facets.fs,
                               static_cast<double>(dxf.is_faceted),
+                              static_cast<double>(dxf.is_centered),
                               static_cast<double>(svg.is_centered),
                               svg.dpi,
                               static_cast<double>(svg.is_faceted)};
@@ -98,15 +118,18 @@ ImportedDrawing FileImports::read_drawing(const DrawingArguments& arguments) {
             {{std::string(is_dxf ? "Can't open DXF file '" : "Can't open file '") + path + "'",
               "check its name; it is relative to the design's folder"}}};
   }
-  return is_dxf ? read_dxf(bytes->view(), path, arguments.dxf)
-                : read_svg(bytes->view(), path, arguments.svg);
+  if (!is_dxf) return read_svg(bytes->view(), path, arguments.svg);
+  ImportedDrawing drawing = read_dxf(bytes->view(), path, arguments.dxf);
+  if (arguments.dxf.is_centered) move_middle_to(Vec2(0.0), drawing.figures);
+  return drawing;
 }
 
-ImportedFile FileImports::read_import(const std::string& name) {
+ImportedFile FileImports::read_import(const FileArguments& arguments) {
   ImportedFile file;
+  const std::string& name = arguments.file;
   const std::string path = path_of(name);
-  const auto format = format_of_solid(name);
-  if (format == kFormats.end()) {
+  const ReadFile read = reader_of(name, arguments.is_of_2026);
+  if (read == nullptr) {
     file.problem = "Unsupported file format while trying to import file '\"" + name + "\"'";
     file.todo = std::string("convert it to ") + kImportable;
     return file;
@@ -117,7 +140,8 @@ ImportedFile FileImports::read_import(const std::string& name) {
     file.todo = "check its name; it is relative to the design's folder";
     return file;
   }
-  SolidFile solid = format->read(bytes->view(), path);
+  SolidFile solid = read(bytes->view(), path);
+  if (arguments.is_centered) move_to_middle(solid.faces);
   file.problem = std::move(solid.problem);
   if (!file.problem.empty()) file.todo = "the file is damaged: export it again";
   set_solid(std::move(solid.faces), path, file);

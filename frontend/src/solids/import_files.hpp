@@ -47,15 +47,15 @@ class FileImports {
 
  private:
   std::string path_of(const std::string& name);
-  ImportedFile read_import(const std::string& name);
+  ImportedFile read_import(const FileArguments& arguments);
   ImportedFile read_surface(const FileArguments& arguments);
   ImportedDrawing read_drawing(const DrawingArguments& arguments);
   void set_solid(FaceSet faces, const std::string& path, ImportedFile& file);
 
   const std::string folder_;
   PolyhedronPool& pool_;
-  std::map<std::string, ImportedFile> imports_;
-  std::map<std::tuple<std::string, bool, bool>, ImportedFile> surfaces_;
+  /// By the file and the settings.
+  std::map<std::tuple<std::string, bool, bool>, ImportedFile> imports_, surfaces_;
   /// By the file and all settings; two texts, and numbers.
   std::map<std::tuple<std::string, std::string, std::vector<double>>, ImportedDrawing> drawings_;
   std::set<std::string> paths_;

@@ -218,5 +218,20 @@ TEST(ImporterFacets, AreMeshesWhereTheyAreMany) {
   EXPECT_EQ(diagonals, 20000u);
 }
 
+TEST(ImportFacets, ARevolutionWithAStartHasItsSectionsRoundedUp) {
+  ImportOptions options;
+  options.facets = Facets::kAll;
+  const auto corners = [&](const std::string& arguments) {
+    const ImportedDesign design =
+        import_text("rotate_extrude(" + arguments +
+                        ", $fn = 10) { polygon([[5, 0], [6, 0], [6, 1], [5, 1]]); }",
+                    options);
+    return design.scene.primitives.at(0).mesh()->vertices().size();
+  };
+  EXPECT_EQ(corners("angle = 100"), 3u * 4);
+  EXPECT_EQ(corners("angle = 100, start = 0"), 4u * 4);
+  EXPECT_EQ(corners("angle = 108, start = 30"), 4u * 4);
+}
+
 }  // namespace
 }  // namespace frontend

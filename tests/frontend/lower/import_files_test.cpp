@@ -46,6 +46,25 @@ class ImporterFiles : public testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(ImporterFiles, AreCenteredByTheRulesOf2026) {
+  folder.write("a.off", off_from("0"));
+  folder.write("a.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nv 0 0 5\nf 3 2 1\nf 2 4 1\nf 4 3 1\nf 2 3 4\n");
+  folder.write("a.dxf",
+               "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n10\n7\n20\n9\n40\n2\n0\nENDSEC\n0\nEOF\n");
+  for (const char* const file : {"a.off", "a.obj"}) {
+    const ImportedDesign design = import(std::string("import(\"") + file + "\", center = true);");
+    EXPECT_THAT(design.warnings, IsEmpty());
+    expect_box(design.view_box, Vec3(-1.5, -2, -2.5), Vec3(1.5, 2, 2.5), 1e-12);
+    const ImportedDesign other = import(std::string("import(\"") + file + "\", center = false);");
+    expect_box(other.view_box, Vec3(0, 0, 0), Vec3(3, 4, 5), 1e-12);
+  }
+  EXPECT_THAT(warnings("import(\"a.obj\");"), ElementsAre(HasSubstr("Unsupported file format")))
+      << "2021.01 does not know it, and writes no center";
+  const csgcore::Box box = import("import(\"a.dxf\", center = true);").view_box;
+  EXPECT_NEAR(box.center().x, 0, 1e-9);
+  EXPECT_NEAR(box.center().y, 0, 1e-9);
+}
+
 TEST_F(ImporterFiles, AreFoundInTheDesignsFolder) {
   folder.write("a.off", off_from("0"));
   folder.write("B.OFF", kDented);

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "csgcore/triangle_mesh.hpp"
+#include "export/zip_writer.hpp"
 #include "frontend/files.hpp"
 #include "meshes/height_map.hpp"
 #include "meshes/read_solid_file.hpp"
@@ -62,6 +63,65 @@ TEST(MeshFiles, HoldTheSameStepInEveryFormat) {
     EXPECT_THAT(mesh->triangles(), SizeIs(20));
     EXPECT_TRUE(mesh->is_closed());
   }
+}
+
+TEST(MeshFiles, ObjHasPointsAndFaces) {
+  const std::string points = "# a tetrahedron\nv 0 0 0 1\nv 3 0 0\r\n v 0 4 0\nvn 0 0 1\nv 0 0 5\n";
+  const SolidFile file =
+      read_obj(points + "f 3/1 2/1 1/1\nf 2//1 4//1 1//1\nf 4 3 1\nf -3 -2 -1", "a.obj");
+  EXPECT_EQ(file.problem, "");
+  EXPECT_NEAR(enclosed_volume(file.faces), 10, 1e-12);
+  EXPECT_EQ(file.faces.face_count(), 4u);
+  const SolidFile wrong = read_obj(points + "f 3 2 1 5\nv 1 x 0\nf 2 4 1\n", "a.obj");
+  EXPECT_EQ(wrong.problem, "Index out of range in 'f 3 2 1 5', line 7 of 'a.obj'");
+  EXPECT_THAT(wrong.faces.corners, ElementsAre(2, 1, 0, 1, 3, 0));
+  EXPECT_EQ(read_obj("v 1 x 0", "a.obj").problem, "Unrecognized Line 'v 1 x 0', line 1 of 'a.obj'");
+}
+
+/// A package whose model has a tetrahedron of volume 10, as object 1, and what else is given.
+std::string package_3mf(const std::string& objects, const std::string& build) {
+  const std::string model =
+      "<m:model xmlns:m=\"x\"><m:resources><m:object id=\"1\"><m:mesh><m:vertices>"
+      "<m:vertex x=\"0\" y=\"0\" z=\"0\"/><m:vertex x=\"3\" y=\"0\" z=\"0\"/>"
+      "<m:vertex x=\"0\" y=\"4\" z=\"0\"/><m:vertex x=\"0\" y=\"0\" z=\"5\"/></m:vertices>"
+      "<m:triangles><m:triangle v1=\"2\" v2=\"1\" v3=\"0\"/><m:triangle v1=\"1\" v2=\"3\" "
+      "v3=\"0\"/>"
+      "<m:triangle v1=\"3\" v2=\"2\" v3=\"0\"/><m:triangle v1=\"1\" v2=\"2\" "
+      "v3=\"3\"/></m:triangles>"
+      "</m:mesh></m:object>" +
+      objects + "</m:resources><m:build>" + build + "</m:build></m:model>";
+  return zip_of(std::vector<ZippedFile>{{"3D/3dmodel.model", model}});
+}
+
+TEST(MeshFiles, BuiltOf3mfHasItemsAndComponentsUnderTheirTransformations) {
+  const std::string pair =
+      "<m:object id=\"2\"><m:components><m:component objectid=\"1\"/>"
+      "<m:component objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 -10 0 "
+      "0\"/></m:components></m:object>";
+  const auto read = [](const std::string& bytes) { return read_built_3mf(bytes, "a.3mf"); };
+  SolidFile file = read(package_3mf(
+      pair,
+      "<m:item objectid=\"2\" transform=\"2 0 0 0 1 0 0 0 1 0 100 0\"/><m:item objectid=\"1\"/>"));
+  EXPECT_EQ(file.problem, "");
+  EXPECT_EQ(file.faces.face_count(), 12u);
+  EXPECT_NEAR(enclosed_volume(file.faces), 10 + 2 * (10 + 10), 1e-9);
+  // x is mirrored and moved by the component, and then doubled by the item, which moves y.
+  EXPECT_THAT(file.faces.points, testing::Contains(csgcore::Vec3(-26, 100, 0)));
+  EXPECT_EQ(read_3mf(package_3mf(pair, ""), "a.3mf").faces.face_count(), 4u) << "without a build";
+  EXPECT_EQ(read(package_3mf(pair, "")).faces.face_count(), 0u);
+  EXPECT_EQ(read(package_3mf("", "<m:item objectid=\"7\"/>")).problem,
+            "Could not read file 'a.3mf'");
+  // An object of itself, and one that doubles itself 40 times.
+  std::string doubled;
+  for (int i = 2; i < 42; ++i) {
+    const std::string part = "<m:component objectid=\"" + std::to_string(i - 1) + "\"/>";
+    doubled += "<m:object id=\"" + std::to_string(i) + "\"><m:components>" + part + part +
+               "</m:components></m:object>";
+  }
+  EXPECT_NE(read(package_3mf(doubled, "<m:item objectid=\"41\"/>")).problem, "");
+  const std::string own =
+      "<m:object id=\"2\"><m:components><m:component objectid=\"2\"/></m:components></m:object>";
+  EXPECT_NE(read(package_3mf(own, "<m:item objectid=\"2\"/>")).problem, "");
 }
 
 TEST(MeshFiles, AnotherFormatIsNone) {
