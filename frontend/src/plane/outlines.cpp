@@ -84,11 +84,22 @@ double reach_of(const Rectangle& box) {
 
 struct Segment {
   Vec2 min, max;  // of its box
+  Vec2 from, to;
 };
 
+/// Returns whether segments whose boxes overlap cross, or touch.
+bool cross_or_touch(const Segment& a, const Segment& b) {
+  const auto divides = [](const Segment& line, const Segment& other) {
+    const Vec2 along = line.to - line.from;
+    return cross(along, other.from - line.from) * cross(along, other.to - line.from) <= 0;
+  };
+  return divides(a, b) && divides(b, a);
+}
+
 /// Returns whether more than `most` pairs of segments have boxes that overlap, an upper bound of
-/// the crossings, or whether that takes too long to tell.
-bool overlap_more_than(std::vector<Segment> segments, uint64_t most) {
+/// the crossings, or cross or touch, or whether that takes too long to tell.
+bool overlap_more_than(std::vector<Segment> segments, uint64_t most,
+                       CrossingCount counted = CrossingCount::kBoxes) {
   constexpr uint64_t kMostComparisons = 1 << 30;  // about a second
   std::sort(segments.begin(), segments.end(),
             [](const Segment& a, const Segment& b) { return a.min.x < b.min.x; });
@@ -98,7 +109,8 @@ bool overlap_more_than(std::vector<Segment> segments, uint64_t most) {
   for (const Segment& segment : segments) {
     std::erase_if(open, [&](const Segment* other) { return other->max.x < segment.min.x; });
     for (const Segment* other : open) {
-      count += other->min.y <= segment.max.y && segment.min.y <= other->max.y;
+      const bool overlaps = other->min.y <= segment.max.y && segment.min.y <= other->max.y;
+      count += overlaps && (counted == CrossingCount::kBoxes || cross_or_touch(*other, segment));
     }
     steps += open.size();
     if (count > most || steps > kMostComparisons) return true;
@@ -113,7 +125,7 @@ void add_segments(std::span<const Polygon> polygons, std::vector<Segment>& segme
       Rectangle box;
       box.merge(polygon[i]);
       box.merge(polygon[(i + 1) % polygon.size()]);
-      segments.push_back({box.min, box.max});
+      segments.push_back({box.min, box.max, polygon[i], polygon[(i + 1) % polygon.size()]});
     }
   }
 }
@@ -226,7 +238,8 @@ class Shortcuts {
 
 }  // namespace
 
-std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords) {
+std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords,
+                                     CrossingCount counted) {
   std::vector<Polygons> parts;
   std::vector<Segment> segments;
   Rectangle box;
@@ -235,7 +248,7 @@ std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chor
     add_segments(part, segments);
     box.merge(bounds_of(part));
   }
-  if (overlap_more_than(std::move(segments), kMostCrossings)) return std::nullopt;
+  if (overlap_more_than(std::move(segments), kMostCrossings, counted)) return std::nullopt;
   Grid grid(reach_of(box));
   ClipperLib::Paths all;
   for (size_t i = 0; i < parts.size(); ++i) {
