@@ -212,14 +212,13 @@ class ExtrusionJudge {
       return leave_out(is_late ? "openscad has not finished in time (raise --time-limit)"
                                : truth.problem);
     }
-    const std::optional<frontend::ImportedDesign> design = imported(node);
-    if (!design) return leave_out("its lists are nested too deeply");
-    if (design->left_out > 0) return;  // which is said elsewhere
-    const int exponent = frontend::scale_exponent(design->scene);
+    const frontend::ImportedDesign design = imported(node);
+    if (design.left_out > 0) return;  // which is said elsewhere
+    const int exponent = frontend::scale_exponent(design.scene);
     const double scale = std::ldexp(1, exponent);
     const Facets facets(*truth.faces, scale);
     const csgcore::Scene scene =
-        exponent == 0 ? design->scene : frontend::scaled(design->scene, exponent);
+        exponent == 0 ? design.scene : frontend::scaled(design.scene, exponent);
     if (facets.box().empty() && scene.primitives.empty()) return;
     const Vec2 top = arguments_of(tree_, tree_.nodes[node]).top_scale;
     const double rounding = kGrid * std::max({1.0, top.x, top.y}) * scale;
@@ -254,11 +253,8 @@ class ExtrusionJudge {
   using Vec2 = frontend::Vec2;
 
   /// Imports the node alone, with all digits of its numbers.
-  std::optional<frontend::ImportedDesign> imported(uint32_t root) {
-    auto alone = std::make_shared<NodeTree>();
-    alone->has_all_digits = tree_.has_all_digits;
-    const auto same_place = [](language::Place place) { return place; };
-    if (!alone->append(tree_, root, tree_.nodes[root].end, same_place)) return std::nullopt;
+  frontend::ImportedDesign imported(uint32_t root) {
+    auto alone = std::make_shared<NodeTree>(tree_.subtree(root));
     for (uint32_t i = 0; i < alone->size(); ++i) {
       alone->nodes[i].modifiers &= i == 0 ? 0 : language::kBackgroundModifier;
     }

@@ -46,6 +46,19 @@ TEST(NodeTree, RemovesNodesWithWhatTheyHave) {
   EXPECT_EQ(tree.size() + tree.arguments.size() + tree.numbers.size(), 0u);
 }
 
+TEST(NodeTree, HasSubtrees) {
+  NodeTree tree = tree_of_two();
+  tree.close(tree.open(NodeKind::kCube, 0, {0, 20}));
+  const NodeTree sphere = tree.subtree(1);
+  ASSERT_EQ(sphere.size(), 1u);
+  EXPECT_EQ(sphere.nodes[0].end, 1u);
+  EXPECT_EQ(sphere.nodes[0].place, (Place{0, 7}));
+  ASSERT_EQ(sphere.arguments.size(), 2u);
+  EXPECT_EQ(sphere.arguments[0].value.number(), 4);
+  EXPECT_EQ(sphere.numbers_of(sphere.arguments[1])[2], 3);
+  EXPECT_EQ(tree.subtree(0).nodes[1].end, 2u);
+}
+
 TEST(NodeTree, FindsRootModifiers) {
   NodeTree tree = tree_of_two();
   EXPECT_FALSE(root_modifiers(tree).shown);

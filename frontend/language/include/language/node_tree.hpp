@@ -143,6 +143,8 @@ struct NodeTree {
   uint32_t open(NodeKind kind, uint8_t modifiers, Place place);
   /// All nodes behind it are its descendants.
   void close(uint32_t node) { nodes[node].end = size(); }
+  /// Returns the node with its descendants as a tree of its own, which shares values with this one.
+  NodeTree subtree(uint32_t node) const;
   /// Removes a node that is open, or the last that was closed, with its descendants.
   void remove(uint32_t node);
   /// Adds an argument to the last node.

@@ -10,6 +10,23 @@ uint32_t NodeTree::open(NodeKind kind, uint8_t modifiers, Place place) {
   return size() - 1;
 }
 
+NodeTree NodeTree::subtree(uint32_t node) const {
+  NodeTree result;
+  result.has_all_digits = has_all_digits;
+  for (uint32_t i = node; i < nodes[node].end; ++i) {
+    Node copy = nodes[i];
+    copy.first_argument = static_cast<uint32_t>(result.arguments.size());
+    copy.end -= node;
+    for (const NodeArgument& argument : arguments_of(nodes[i])) {
+      result.arguments.push_back({argument.name, argument.style, argument.number_count,
+                                  static_cast<uint32_t>(result.numbers.size()), argument.value});
+      result.numbers.append(numbers_of(argument));
+    }
+    result.nodes.push_back(copy);
+  }
+  return result;
+}
+
 void NodeTree::remove(uint32_t node) {
   const uint32_t first = nodes[node].first_argument;
   const auto with_numbers =
