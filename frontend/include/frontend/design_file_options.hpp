@@ -35,7 +35,7 @@ struct DesignInputs {
   /// $t. Openscad takes it by -D, behind the assignments of the design's own top level.
   std::optional<double> time;
   /// In place of the language that is chosen otherwise.
-  std::optional<language::LanguageVersion> language;
+  std::optional<language::LanguageVersion> language{};
 
   bool operator==(const DesignInputs&) const = default;
 };
