@@ -79,8 +79,7 @@ TEST_F(Opening, StandardInput) {
 }
 
 TEST_F(Opening, WhatCannotBeDrawnIsLeftOutAndListed) {
-  const std::string design =
-      folder_.write("a.csg", kBlock + "cube(size = 1e308);\n");
+  const std::string design = folder_.write("a.csg", kBlock + "cube(size = 1e308);\n");
   open(design);
   const json line = next();
   EXPECT_EQ(line["error"], "");
