@@ -104,7 +104,7 @@ TEST(Options, ExportFormatStandsAboveTheSuffix) {
             PictureFormat::kPng);
   EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
   EXPECT_THAT(error_of({"-o", "x.png", "--export-format=nef3", "a"}),
-              HasSubstr("give png or exr; csg or echo; stl, binstl, asciistl, off"));
+              HasSubstr("give png or exr; csg, echo or param; stl, binstl, asciistl, off"));
 }
 
 TEST(Options, Models) {
