@@ -7,7 +7,7 @@
 namespace language {
 namespace {
 
-// Of each colour: six digits, its name, a semicolon.
+// Each colour has six digits, its name and a semicolon.
 constexpr std::string_view kSurvey =
     "8ffe09acid green;bd6c48adobe;54ac68algae;21c36falgae green;070d0dalmost black;feb308amber;"
     "9b5fc0amethyst;6ecb3capple;76cd26apple green;ffb16dapricot;13eac9aqua;02d8e9aqua blue;"

@@ -50,7 +50,7 @@ class Recorder {
     if (!records_.empty()) note_result(function);
   }
 
-  // Of the innermost one:
+  // These tell of the innermost one.
 
   /// Returns whether evaluating it anew could not be observed.
   bool is_repeatable() const;

@@ -97,7 +97,7 @@ struct BuiltinFunction {
   Arity arity_of_2026{};         // where it is another one, or has words
   bool reads_names = false;      // of its arguments
   bool is_experimental = false;  // only where there are objects
-  /// Of a function that is called like a module in 2026: arguments are assigned to these by their
+  /// If the function is called like a module in 2026, arguments are assigned to these by their
   /// names and positions, and what is not given is unset. Empty: names are ignored.
   std::span<const std::string_view> parameters{};
 };
@@ -115,7 +115,7 @@ std::span<const BuiltinFunction> builtin_functions();
 
 namespace language::functions {
 
-/// Of dxf_dim() and dxf_cross().
+/// The parameters of dxf_dim() and dxf_cross().
 inline constexpr std::string_view kDrawingParameters[] = {"file", "layer", "origin", "scale",
                                                           "name"};
 

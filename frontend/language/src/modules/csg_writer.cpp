@@ -75,15 +75,6 @@ void append_integer(std::string& out, double number) {
   out.append(digits.data(), end);
 }
 
-void append_escaped(std::string& out, std::string_view text) {
-  constexpr std::string_view kEscaped = "\t\n\r\"\\", kLetters = "tnr\"\\";
-  for (const char c : text) {
-    const size_t found = kEscaped.find(c);
-    if (found != std::string_view::npos) out += '\\';
-    out += found != std::string_view::npos ? kLetters[found] : c;
-  }
-}
-
 void append_value(std::string& out, const NodeTree& tree, const NodeArgument& argument) {
   const std::span<const double> numbers = tree.numbers_of(argument);
   switch (argument.style) {
@@ -113,9 +104,7 @@ void append_value(std::string& out, const NodeTree& tree, const NodeArgument& ar
       out += '"';
       return;
     case ArgumentStyle::kEscapedString:
-      out += '"';
-      append_escaped(out, argument.value.text());
-      out += '"';
+      append_string_literal(out, argument.value.text());
       return;
   }
 }

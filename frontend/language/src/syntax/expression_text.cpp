@@ -4,6 +4,7 @@
 
 #include "base/number_text.hpp"
 #include "syntax/syntax.hpp"
+#include "values/value_text.hpp"
 
 namespace language {
 
@@ -23,17 +24,6 @@ std::string_view unary_text(UnaryOperator op) {
       break;
   }
   return "~";
-}
-
-void append_string_literal(std::string& out, std::string_view text) {
-  constexpr std::string_view kEscaped = "\t\n\r\"\\", kLetters = "tnr\"\\";
-  out += '"';
-  for (const char c : text) {
-    const size_t escape = kEscaped.find(c);
-    if (escape != kEscaped.npos) out += '\\';
-    out += escape == kEscaped.npos ? c : kLetters[escape];
-  }
-  out += '"';
 }
 
 /// Returns whether an element of a vector is a comprehension rather than an expression.

@@ -28,18 +28,6 @@ void append_quoted(std::string& out, std::string_view text) {
   out += '"';
 }
 
-// Appends a string as an object shows its own: what is escaped in the language is escaped.
-void append_escaped(std::string& out, std::string_view text) {
-  constexpr std::string_view kEscaped = "\n\t\r\\\"", kLetters = "ntr\\\"";
-  out += '"';
-  for (const char c : text) {
-    const size_t found = kEscaped.find(c);
-    if (found != kEscaped.npos) out += '\\';
-    out += found == kEscaped.npos ? c : kLetters[found];
-  }
-  out += '"';
-}
-
 // Appends a value that has no parts.
 void append_leaf(std::string& out, const Value& value) {
   switch (value.type()) {
@@ -128,7 +116,7 @@ void append_parts(std::string& out, const Value& value, Check check) {
       continue;
     }
     if (bracket.is_object && part.is_string()) {
-      append_escaped(out, part.text());
+      append_string_literal(out, part.text());
     } else {
       append_leaf(out, part);
     }
@@ -137,6 +125,17 @@ void append_parts(std::string& out, const Value& value, Check check) {
 }
 
 }  // namespace
+
+void append_string_literal(std::string& out, std::string_view text) {
+  constexpr std::string_view kEscaped = "\n\t\r\\\"", kLetters = "ntr\\\"";
+  out += '"';
+  for (const char c : text) {
+    const size_t found = kEscaped.find(c);
+    if (found != kEscaped.npos) out += '\\';
+    out += found == kEscaped.npos ? c : kLetters[found];
+  }
+  out += '"';
+}
 
 void append_value_text(std::string& out, const Value& value) {
   const auto check = [](size_t bytes, size_t) { check_text_size(bytes); };
@@ -156,7 +155,7 @@ void append_echo_text(std::string& out, const Value& value) {
 
 void append_quoted_text(std::string& out, const Value& value) {
   if (!value.is_string()) return append_echo_text(out, value);
-  append_escaped(out, value.text());
+  append_string_literal(out, value.text());
   check_shown(out.size(), 0);
 }
 

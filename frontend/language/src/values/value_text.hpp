@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "language/value.hpp"
 #include "values/object_memory.hpp"
@@ -12,6 +13,9 @@ namespace language {
 /// How large a text may become that is shown, or is a string: vectors that hold one another many
 /// times take little memory, but their text has no end.
 constexpr size_t kMostTextBytes = size_t{32} << 20;
+
+/// Appends a string as the language writes it: in quotes, with escapes.
+void append_string_literal(std::string& out, std::string_view text);
 
 /// Appends a value as the .csg shows it: strings in quotes, nothing escaped. Any text that fits the
 /// memory of values may result.
