@@ -135,15 +135,18 @@ LayerSurfaces::LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
   }
 }
 
-Compositor::Compositor(Image& image, std::vector<float> depth, double scene_size,
+Compositor::Compositor(Image& image, std::span<const float> depth, double scene_size,
                        const LayerSurfaces& surfaces)
     : image_(image),
       scene_size_(scene_size),
       turns_(surfaces.blended),
-      depth_(std::move(depth)),
-      squares_across_((image.width_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px) {
-  // The last rows of blocks at the right side are looked at as a whole.
-  depth_.resize(depth_.size() + PixelBlock::kWidth_px, kNothing);
+      squares_across_((image.width_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px),
+      stride_px_(squares_across_ * kSurfaceSquare_px) {
+  depth_.resize(size_t{stride_px_} * image.height_px, kNothing);
+  for (uint32_t y = 0; y < image.height_px && !depth.empty(); ++y) {
+    std::ranges::copy(depth.subspan(size_t{y} * image.width_px, image.width_px),
+                      depth_.begin() + static_cast<ptrdiff_t>(size_t{y} * stride_px_));
+  }
   if (surfaces.has_parts) last_layer_.resize(depth_.size(), kNoLayer);
   const uint32_t squares_down = (image.height_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px;
   squares_.assign(size_t{squares_across_} * squares_down,
@@ -160,10 +163,10 @@ Compositor::Square Compositor::look_at_square(uint32_t x, uint32_t y) const {
   const uint32_t right = std::min(x + kSurfaceSquare_px, image_.width_px);
   const uint32_t bottom = std::min(y + kSurfaceSquare_px, image_.height_px);
   const bool has_parts = !last_layer_.empty();
-  const size_t top_left = size_t{y} * image_.width_px + x;
+  const size_t top_left = size_t{y} * stride_px_ + x;
   Square square{-kNothing, -kNothing, has_parts ? last_layer_[top_left] : kNoLayer, true};
   for (uint32_t row = y; row < bottom; ++row) {
-    const size_t first = size_t{row} * image_.width_px;
+    const size_t first = size_t{row} * stride_px_;
     for (size_t pixel = first + x; pixel < first + right; ++pixel) {
       const float depth = depth_[pixel];
       square.furthest = depth > square.furthest ? depth : square.furthest;
@@ -202,23 +205,23 @@ namespace {
 
 constexpr uint32_t kRowPixels = (uint32_t{1} << PixelBlock::kWidth_px) - 1;
 
-/// Calls visit(row's first pixel in the block, and in a picture of this width) for each row of the
-/// block that has any of the pixels.
+/// Calls visit(row's first pixel in the block, and among pixels with this many in a row) for each
+/// row of the block that has any of the pixels.
 template <typename Visit>
-void for_each_row(const PixelBlock& block, uint32_t width_px, const Visit& visit) {
+void for_each_row(const PixelBlock& block, uint32_t stride_px, const Visit& visit) {
   for (uint32_t y = 0; y < PixelBlock::kHeight_px; ++y) {
     const uint32_t first = y * PixelBlock::kWidth_px;
     if ((block.pixels >> first & kRowPixels) == 0) continue;
-    visit(first, size_t{block.y + y} * width_px + block.x);
+    visit(first, size_t{block.y + y} * stride_px + block.x);
   }
 }
 
-/// Returns the pixels of the block for which holds(pixel in the block, index in the picture). Asks
+/// Returns the pixels of the block for which holds(pixel in the block, its index). Asks
 /// for whole rows, which compilers make vectors of.
 template <typename Holds>
-uint32_t pixels_where(const PixelBlock& block, uint32_t width_px, const Holds& holds) {
+uint32_t pixels_where(const PixelBlock& block, uint32_t stride_px, const Holds& holds) {
   uint32_t result = 0;
-  for_each_row(block, width_px, [&](uint32_t first, size_t index) {
+  for_each_row(block, stride_px, [&](uint32_t first, size_t index) {
     uint32_t row = 0;
     for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
       row |= holds(first + x, index + x) ? uint32_t{1} << x : 0;
@@ -228,16 +231,15 @@ uint32_t pixels_where(const PixelBlock& block, uint32_t width_px, const Holds& h
   return result & block.pixels;
 }
 
-/// Returns those of the pixels for which holds(pixel in the block, index in the picture), one by
-/// one.
+/// Returns those of the pixels for which holds(pixel in the block, its index), one by one.
 template <typename Holds>
-uint32_t those_where(uint32_t pixels, const PixelBlock& block, uint32_t width_px,
+uint32_t those_where(uint32_t pixels, const PixelBlock& block, uint32_t stride_px,
                      const Holds& holds) {
   uint32_t result = 0;
   for (uint32_t left = pixels; left != 0; left &= left - 1) {
     const auto pixel = static_cast<uint32_t>(std::countr_zero(left));
     const size_t row = block.y + pixel / PixelBlock::kWidth_px;
-    const size_t index = row * width_px + block.x + pixel % PixelBlock::kWidth_px;
+    const size_t index = row * stride_px + block.x + pixel % PixelBlock::kWidth_px;
     if (holds(pixel, index)) result |= left & -left;
   }
   return result;
@@ -262,18 +264,17 @@ void Compositor::blend_row(const PreparedLayer& layer, uint32_t drawn,
 uint32_t Compositor::wanted(uint32_t turn, const PixelBlock& block, float nearest_z,
                             double (&furthest_z)[PixelBlock::kPixels]) const {
   const Turn& own = turns_[turn];
-  for_each_row(block, image_.width_px, [&](uint32_t first, size_t index) {
+  for_each_row(block, stride_px_, [&](uint32_t first, size_t index) {
     for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
       const double depth = depth_[index + x];
       furthest_z[first + x] = depth + kMostReaches * reach(depth);
     }
   });
   const double nearest = nearest_z;
-  const uint32_t result = pixels_where(block, image_.width_px, [&](uint32_t pixel, size_t) {
-    return !(nearest > furthest_z[pixel]);
-  });
+  const uint32_t result = pixels_where(
+      block, stride_px_, [&](uint32_t pixel, size_t) { return !(nearest > furthest_z[pixel]); });
   if (!own.is_part) return result;
-  return result & pixels_where(block, image_.width_px, [&](uint32_t, size_t index) {
+  return result & pixels_where(block, stride_px_, [&](uint32_t, size_t index) {
            return last_layer_[index] != own.number && !is_nothing(depth_[index]);
          });
 }
@@ -285,29 +286,29 @@ uint32_t Compositor::shown(uint32_t turn, const PixelBlock& block,
   if (own.is_part) {
     const float share = kNearlyOne * static_cast<float>(kSameDepth);
     const auto size = static_cast<float>(scene_size_);
-    const uint32_t near = pixels_where(block, image_.width_px, [&](uint32_t pixel, size_t index) {
+    const uint32_t near = pixels_where(block, stride_px_, [&](uint32_t pixel, size_t index) {
       return std::abs(z[pixel] - depth_[index]) <= share * (std::abs(z[pixel]) + size);
     });
-    return those_where(near, block, image_.width_px, [&](uint32_t pixel, size_t index) {
+    return those_where(near, block, stride_px_, [&](uint32_t pixel, size_t index) {
       return last_layer_[index] != own.number &&
              std::abs(z[pixel] - depth_[index]) <= reach(z[pixel]);
     });
   }
-  const uint32_t before = pixels_where(block, image_.width_px, [&](uint32_t pixel, size_t index) {
-    return z[pixel] <= depth_[index];
-  });
-  return before | those_where(block.pixels & ~before, block, image_.width_px,
-                              [&](uint32_t pixel, size_t index) {
-                                return z[pixel] - reach(z[pixel]) <= depth_[index];
-                              });
+  const uint32_t before = pixels_where(
+      block, stride_px_, [&](uint32_t pixel, size_t index) { return z[pixel] <= depth_[index]; });
+  return before |
+         those_where(block.pixels & ~before, block, stride_px_, [&](uint32_t pixel, size_t index) {
+           return z[pixel] - reach(z[pixel]) <= depth_[index];
+         });
 }
 
 void Compositor::draw(uint32_t turn, const PixelBlock& block,
                       const csgcore::SurfacePixels& pixels) {
   const Turn& own = turns_[turn];
-  for_each_row(block, image_.width_px, [&](uint32_t first, size_t index) {
+  for_each_row(block, stride_px_, [&](uint32_t first, size_t index) {
     const uint32_t drawn = block.pixels >> first & kRowPixels;
-    blend_row(*own.layer, drawn, pixels, first, &image_.rgb[index]);
+    const size_t row = block.y + first / PixelBlock::kWidth_px;
+    blend_row(*own.layer, drawn, pixels, first, &image_.rgb[row * image_.width_px + block.x]);
     if (own.is_part) return;
     for (uint32_t x = 0; x < PixelBlock::kWidth_px; ++x) {
       if ((drawn >> x & 1) == 0) continue;
@@ -321,18 +322,19 @@ void Compositor::draw(uint32_t turn, const PixelBlock& block,
 }
 
 void Compositor::blend(uint32_t turn, const Image& picture, const csgcore::PixelArea& area) {
-  const auto next = [](uint32_t x, uint32_t step) { return (x / step + 1) * step; };
   const uint32_t right = area.x + area.width, bottom = area.y + area.height;
   csgcore::SurfacePixels pixels{};
-  for (uint32_t y = area.y; y < bottom; y = next(y, PixelBlock::kHeight_px)) {
-    for (uint32_t x = area.x; x < right; x = next(x, PixelBlock::kWidth_px)) {
-      const uint32_t width = std::min(next(x, PixelBlock::kWidth_px), right) - x;
-      const uint32_t height = std::min(next(y, PixelBlock::kHeight_px), bottom) - y;
-      PixelBlock block{x, y, 0};
-      for (uint32_t row = 0; row < height; ++row) {
-        for (uint32_t column = 0; column < width; ++column) {
-          const size_t index = size_t{y + row} * picture.width_px + x + column;
-          const uint32_t pixel = row * PixelBlock::kWidth_px + column;
+  for (uint32_t top = area.y - area.y % PixelBlock::kHeight_px; top < bottom;
+       top += PixelBlock::kHeight_px) {
+    for (uint32_t left = area.x - area.x % PixelBlock::kWidth_px; left < right;
+         left += PixelBlock::kWidth_px) {
+      PixelBlock block{left, top, 0};
+      for (uint32_t y = std::max(top, area.y); y < std::min(top + PixelBlock::kHeight_px, bottom);
+           ++y) {
+        for (uint32_t x = std::max(left, area.x); x < std::min(left + PixelBlock::kWidth_px, right);
+             ++x) {
+          const size_t index = size_t{y} * picture.width_px + x;
+          const uint32_t pixel = (y - top) * PixelBlock::kWidth_px + x - left;
           // A miss is at infinity, and in front of nothing.
           if (is_nothing(picture.z[index])) continue;
           block.pixels |= uint32_t{1} << pixel;

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -84,10 +85,11 @@ struct LayerSurfaces {
 /// part's layer.
 class Compositor final : public csgcore::SurfaceSink {
  public:
-  /// `depth` holds View's s of what each pixel of `image` shows, +inf where that is nothing. Of the
-  /// image's channels only rgb changes. Surfaces coincide where they are nearer than a rounding
-  /// error of a picture of a scene of this size (world units): the later one is then drawn.
-  Compositor(csgcore::Image& image, std::vector<float> depth, double scene_size,
+  /// `depth` holds View's s of what each pixel of `image` shows, +inf where that is nothing, or
+  /// nothing if no pixel shows anything. Of the image's channels only rgb changes. Surfaces
+  /// coincide where they are nearer than a rounding error of a picture of a scene of this size
+  /// (world units): the later one is then drawn.
+  Compositor(csgcore::Image& image, std::span<const float> depth, double scene_size,
              const LayerSurfaces& surfaces);
 
   /// Blends the surface of a turn from its picture in the area, with z and id channels.
@@ -131,9 +133,11 @@ class Compositor final : public csgcore::SurfaceSink {
   csgcore::Image& image_;
   const double scene_size_;
   const std::vector<Turn>& turns_;
+  const uint32_t squares_across_;
+  // Threads that draw squares side by side share no row of a block: all rows are of whole squares.
+  const uint32_t stride_px_;
   std::vector<float> depth_;          // of what was drawn last at each pixel
   std::vector<uint32_t> last_layer_;  // that is seen at each pixel; none if no part asks for it
-  const uint32_t squares_across_;
   mutable std::vector<Square> squares_;
 };
 

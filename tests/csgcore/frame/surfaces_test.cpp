@@ -191,7 +191,7 @@ TEST_P(SurfacesOf, HiddenSolidsAreLeftOut) {
     const uint32_t behind = drawing.add(scene, Boundary::kBehind, GetParam());
     const uint32_t first = drawing.add(scene, Boundary::kFirst, GetParam(), true);
     drawing.turns.insert(drawing.turns.end(), {behind, first});
-    if (i % 7 == 0) drawing.turns.push_back(drawing.turns[3]);
+    if (i % 7 == 0) drawing.turns.push_back(drawing.turns[1]);
     box.merge(drawing.solids.back()->bounds());
   }
   uint64_t all = 0, seen = 0;  // rays
