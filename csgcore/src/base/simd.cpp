@@ -7,7 +7,7 @@ namespace csgcore {
 namespace {
 
 /// Whether all levels are compiled (CSGCORE_DISABLED_TARGETS).
-#ifdef CSGCORE_SANITIZED
+#ifdef CSGCORE_TWO_TARGETS
 constexpr bool kCompilesAll = false;
 #else
 constexpr bool kCompilesAll = true;
