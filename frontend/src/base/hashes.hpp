@@ -1,6 +1,7 @@
 // Hashes that tell large contents apart.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -25,7 +26,7 @@ class Hashes {
       add(word);
     }
     uint64_t rest = 0;
-    std::memcpy(&rest, bytes.data(), bytes.size());
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&rest));
     add(rest);
   }
   uint64_t first() const { return first_; }
