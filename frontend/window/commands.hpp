@@ -40,6 +40,7 @@ enum class Command : uint8_t {
   kId,
   kOpenScadShading,
   kPhongShading,
+  kStudioShading,
   kSection,
   kSectionX,
   kSectionY,

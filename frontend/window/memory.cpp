@@ -116,6 +116,7 @@ constexpr Switch kSwitches[] = {
     {"edges", Command::kEdges, Command::kEdges, &GivenLook::view},
     {"orthographic", Command::kOrthographic, Command::kPerspective, &GivenLook::projection},
     {"phong", Command::kPhongShading, Command::kOpenScadShading, &GivenLook::shading},
+    {"studio", Command::kStudioShading, Command::kOpenScadShading, &GivenLook::shading},
     {"parameters", Command::kParameters, Command::kParameters, nullptr},
     {"status_line", Command::kStatus, Command::kStatus, nullptr},
     {"messages", Command::kMessages, Command::kMessages, nullptr},

@@ -36,6 +36,36 @@ constexpr double kMostOfPicture = 0.5;
 /// A share this near to 1 is drawn in full: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
 
+/// The directions of the studio's light in the first picture that has it.
+constexpr uint32_t kFewDirections = 64;
+
+bool has_studio(const frontend::RenderSettings& settings) {
+  return settings.shading == frontend::Shading::kStudio && settings.show == Show::kSurface &&
+         settings.studio.shows_any();
+}
+
+/// Returns the settings of the picture that all steps lead to.
+frontend::RenderSettings last_settings(const PaintOrder& order) {
+  frontend::RenderSettings settings = order.settings;
+  if (has_studio(settings)) {
+    settings.samples = std::max(settings.samples, frontend::kStudioSamples);
+  }
+  return settings;
+}
+
+/// Returns the settings of the picture that a step draws.
+frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
+  frontend::RenderSettings settings = last_settings(order);
+  if (order.is_moving) settings.samples = 1;
+  if (!has_studio(settings) || step == Step::kFinal) return settings;
+  settings.samples = 1;
+  settings.studio.directions = std::min(settings.studio.directions, kFewDirections);
+  if (step == Step::kColors) {
+    settings.studio.shadows = settings.studio.occlusion = settings.studio.edges = 0;
+  }
+  return settings;
+}
+
 bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCells; }
 
 }  // namespace
@@ -106,7 +136,7 @@ bool Painter::waits_for_refinement(std::unique_lock<std::mutex>& lock) {
     wake_.wait(lock, has_work);
     return false;
   }
-  return !wake_.wait_for(lock, kRest, has_work);
+  return !wake_.wait_for(lock, coarse_->is_moving ? kRest : kRest.zero(), has_work);
 }
 
 /// Returns what stops the painting of an order, which begins now.
@@ -125,13 +155,13 @@ void Painter::run() {
       order.is_moving = false;
       const Stops stops = stops_of(order);
       lock.unlock();
-      paint(std::move(order), stops);
+      paint(std::move(order), next_step_, stops);
     } else if (ordered_ && !is_stopping_) {
       PaintOrder order = *std::exchange(ordered_, std::nullopt);
       coarse_.reset();
       const Stops stops = stops_of(order);
       lock.unlock();
-      paint(std::move(order), stops);
+      paint(std::move(order), Step::kColors, stops);
     } else if (!probes_.empty() && !is_stopping_) {
       const Probe probe = std::move(probes_.front());
       probes_.erase(probes_.begin());
@@ -180,24 +210,27 @@ double Painter::affordable_share(const PaintOrder& order) const {
   return share >= kWholeShare ? 1 : std::max(share, kLeastShare);
 }
 
-void Painter::paint(PaintOrder order, const Stops& stops) {
+void Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   const double share = affordable_share(order);
   const auto side = [share](uint32_t px) {
     return std::max(1u, static_cast<uint32_t>(std::lround(share * px)));
   };
   const Size size{side(order.size.width_px), side(order.size.height_px)};
-  const uint32_t samples = order.is_moving ? 1 : order.settings.samples;
+  const frontend::RenderSettings settings = settings_of(order, step);
   activity_.begin("drawing");
   std::optional<Painting> painting;
   try {
     const csgcore::StopScope scope(&stops.all);
-    painting = paint_at(order, size, samples, stops.drawing);
+    painting = paint_at(order, size, settings, stops.drawing);
   } catch (const csgcore::Stopped&) {
   }
   activity_.end();
   if (!painting || stops.drawing.stop_requested()) return;
-  painting->is_final = size == order.size && samples == order.settings.samples;
-  if (!painting->is_final && painting->error.empty()) coarse_ = std::move(order);
+  painting->is_final = size == order.size && draw_the_same(settings, last_settings(order));
+  if (!painting->is_final && painting->error.empty()) {
+    coarse_ = std::move(order);
+    next_step_ = has_studio(settings) ? Step::kFinal : Step::kLit;
+  }
   publish(std::move(*painting));
 }
 
@@ -215,12 +248,10 @@ void Painter::load(const PaintOrder& order) {
   loaded_section_ = order.section;
 }
 
-Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
+Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderSettings settings,
                            const std::stop_token& stop) {
   Painting painting;
   painting.order = order;
-  frontend::RenderSettings settings = order.settings;
-  settings.samples = samples;
   settings.stop = stop;
   settings.progress = [this, &order, &stop](const char* stage, double fraction) {
     if (stop.stop_requested()) throw csgcore::Stopped();
@@ -233,15 +264,18 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
     load(order);
     const Clock::time_point loaded = Clock::now();
     const csgcore::View view = order.navigation.view(size);
-    painting.image = size == order.size ? renderer_.redraw(view, settings, painting.stats)
-                                        : renderer_.draw(view, settings, painting.stats);
+    // What is kept for the next edit is a picture without the studio's light, as that edit's first.
+    painting.image = size == order.size && !has_studio(settings)
+                         ? renderer_.redraw(view, settings, painting.stats)
+                         : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
     frontend::draw_overlays(painting.image, view, order.navigation.camera(), order.overlays,
                             settings.scheme, *order.design);
     const auto traced = static_cast<double>(painting.stats.edit.pixels_traced);
     const bool is_most = traced >= kMostOfPicture * size.width_px * size.height_px;
-    if (samples == 1 && is_most) ms_per_pixel_ = ms_since(loaded) / traced;
-    if (samples == 1 && size == order.size) note_drawn(order, ms_since(start));
+    const bool is_plain = settings.samples == 1 && !has_studio(settings);
+    if (is_plain && is_most) ms_per_pixel_ = ms_since(loaded) / traced;
+    if (is_plain && size == order.size) note_drawn(order, ms_since(start));
   } catch (const std::bad_alloc&) {
     painting.error = "error: out of memory (make the window or the design smaller)";
   } catch (const std::exception& error) {

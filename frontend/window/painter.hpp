@@ -41,6 +41,10 @@ struct PaintOrder {
   bool is_moving = false;
 };
 
+/// The steps to a picture in the studio's light: its colours alone, then what hides light, by one
+/// ray a pixel and few directions, then all that is asked for.
+enum class Step : uint8_t { kColors, kLit, kFinal };
+
 struct Painting {
   PaintOrder order;
   csgcore::Image image;  // smaller than the order's size where it is coarse
@@ -105,8 +109,8 @@ class Painter {
 
   void run();
   Stops stops_of(const PaintOrder& order);
-  void paint(PaintOrder order, const Stops& stops);
-  Painting paint_at(const PaintOrder& order, Size size, uint32_t samples,
+  void paint(PaintOrder order, Step step, const Stops& stops);
+  Painting paint_at(const PaintOrder& order, Size size, frontend::RenderSettings settings,
                     const std::stop_token& stop);
   void load(const PaintOrder& order);
   bool is_edit_of_drawn(const PaintOrder& order) const;
@@ -146,7 +150,8 @@ class Painter {
     Size size{};
     std::optional<double> edit_ms{};  // what the last edit of the design took in this view
   } drawn_;
-  std::optional<PaintOrder> coarse_;
+  std::optional<PaintOrder> coarse_;  // what was painted last, where it is to be refined
+  Step next_step_ = Step::kFinal;     // of coarse_
 
   std::thread thread_;
 };

@@ -251,6 +251,9 @@ bool State::apply(Command command) {
       case Command::kPhongShading:
         look.shading = Shading::kPhong;
         break;
+      case Command::kStudioShading:
+        look.shading = Shading::kStudio;
+        break;
       case Command::kLanguage2021:
         language = language::LanguageVersion::k2021;
         break;
@@ -312,6 +315,8 @@ bool State::is_checked(Command command) const {
       return look.shading == Shading::kOpenScad;
     case Command::kPhongShading:
       return look.shading == Shading::kPhong;
+    case Command::kStudioShading:
+      return look.shading == Shading::kStudio;
     case Command::kLanguage2021:
       return language == language::LanguageVersion::k2021;
     case Command::kLanguage2026:

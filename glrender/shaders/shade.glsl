@@ -28,6 +28,13 @@ vec3 shade(vec3 color, vec3 point, vec3 normal, vec3 ray_direction) {
     result += PHONG_SPECULAR * pow(max(dot(reflected, to_eye), 0.0), PHONG_EXPONENT);
   }
   return min(result, vec3(1.0));
+#elif SHADING == SHADING_STUDIO
+  vec3 n = dot(normal, ray_direction) > 0.0 ? -normal : normal;
+  vec3 n_eye = vec3(dot(n, u_right), dot(n, u_up), -dot(n, u_forward));
+  vec3 key = normalize(vec3(STUDIO_KEY_RIGHT, STUDIO_KEY_UP, STUDIO_KEY_NEAR));
+  vec3 fill = normalize(vec3(STUDIO_FILL_RIGHT, STUDIO_FILL_UP, STUDIO_FILL_NEAR));
+  return color * (STUDIO_AMBIENT + STUDIO_FILL * max(dot(n_eye, fill), 0.0) +
+                  STUDIO_KEY * max(dot(n_eye, key), 0.0));
 #else
   vec3 n_eye = vec3(dot(normal, u_right), dot(normal, u_up), -dot(normal, u_forward));
   return min(color * (0.2 + abs(dot(n_eye, vec3(-1.0, 1.0, 1.0))) / sqrt(3.0)), vec3(1.0));

@@ -8,6 +8,7 @@
 #include "csgcore/blist.hpp"
 #include "csgcore/phong.hpp"
 #include "csgcore/primitive.hpp"
+#include "csgcore/studio_light.hpp"
 
 namespace glrender {
 
@@ -100,10 +101,20 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"CUT_FACES_ALWAYS", double(csgcore::CutFaces::kAlways), true},
     ShaderConstant{"SHADING_OPENSCAD", 0, true},
     ShaderConstant{"SHADING_PHONG", 1, true},
+    ShaderConstant{"SHADING_STUDIO", 2, true},
     ShaderConstant{"PHONG_AMBIENT", csgcore::kPhongAmbient, false},
     ShaderConstant{"PHONG_DIFFUSE", csgcore::kPhongDiffuse, false},
     ShaderConstant{"PHONG_SPECULAR", csgcore::kPhongSpecular, false},
     ShaderConstant{"PHONG_EXPONENT", csgcore::kPhongExponent, false},
+    ShaderConstant{"STUDIO_AMBIENT", csgcore::kStudioAmbient, false},
+    ShaderConstant{"STUDIO_KEY", csgcore::kStudioKey, false},
+    ShaderConstant{"STUDIO_FILL", csgcore::kStudioFill, false},
+    ShaderConstant{"STUDIO_KEY_RIGHT", csgcore::kStudioKeyDirection[0], false},
+    ShaderConstant{"STUDIO_KEY_UP", csgcore::kStudioKeyDirection[1], false},
+    ShaderConstant{"STUDIO_KEY_NEAR", csgcore::kStudioKeyDirection[2], false},
+    ShaderConstant{"STUDIO_FILL_RIGHT", csgcore::kStudioFillDirection[0], false},
+    ShaderConstant{"STUDIO_FILL_UP", csgcore::kStudioFillDirection[1], false},
+    ShaderConstant{"STUDIO_FILL_NEAR", csgcore::kStudioFillDirection[2], false},
     // A thickness measured in float may lie on the wrong side of the tolerance between these
     // multiples of it. (In one pixel of a thousand, walls of 0.75 tolerances were seen to exist and
     // walls of 1.25 not to.)

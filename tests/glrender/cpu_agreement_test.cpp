@@ -83,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST_P(CpuAgreementTest, OfEveryChannel) {
-  for (const auto shading : {glrender::Shading::kOpenScad, glrender::Shading::kPhong}) {
+  for (const auto shading :
+       {glrender::Shading::kOpenScad, glrender::Shading::kPhong, glrender::Shading::kStudio}) {
     loaded_.settings.shading = shading;
     const Pictures pictures = draw();
     gl_test::expect_agreement(pictures.gl, pictures.cpu, view_, model_size_, kEdges,

@@ -157,6 +157,36 @@ TEST_F(PainterTest, DrawsWhatTheCommandDraws) {
   check();
 }
 
+TEST_F(PainterTest, LightsAStudioInSteps) {
+  PaintOrder order = order_of(design_of(window_test::kBlock));
+  order.settings.shading = frontend::Shading::kStudio;
+  PaintOrder final = order, lit = order, colors = order;
+  final.settings.samples = frontend::kStudioSamples;
+  lit.settings.studio.directions = 64;
+  colors.settings.studio = {0, 0, 0};
+  for (const bool is_moving : {false, true}) {
+    std::vector<csgcore::Image> steps;
+    std::promise<void> is_done;
+    // No step is missed where the painter's thread takes them itself.
+    std::unique_ptr<Painter> painter;
+    std::promise<void> is_made;
+    painter = std::make_unique<Painter>(1e6, [&, made = is_made.get_future().share()] {
+      made.wait();
+      const std::optional<Painting> painting = painter->take_painting();
+      steps.push_back(painting->image);
+      if (painting->is_final) is_done.set_value();
+    });
+    is_made.set_value();
+    order.is_moving = is_moving;
+    painter->order(order);
+    is_done.get_future().wait();
+    ASSERT_EQ(steps.size(), 3u);
+    EXPECT_TRUE(steps[0].rgb == command_picture(colors).rgb);
+    EXPECT_TRUE(steps[1].rgb == command_picture(lit).rgb);
+    EXPECT_TRUE(steps[2].rgb == command_picture(final).rgb);
+  }
+}
+
 TEST_F(PainterTest, DrawsWhatIsEmpty) {
   Painter& painter = this->painter();
   const std::string cubes = "{ cube(1); multmatrix([[1, 0, 0, 5]]) { cube(1); } }";

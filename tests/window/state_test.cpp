@@ -65,7 +65,7 @@ TEST_F(StateTest, ChoicesExcludeEachOther) {
   const std::vector<std::vector<Command>> kGroups = {
       {Command::kPerspective, Command::kOrthographic},
       {Command::kSurface, Command::kCells, Command::kDepth, Command::kNormals, Command::kId},
-      {Command::kOpenScadShading, Command::kPhongShading},
+      {Command::kOpenScadShading, Command::kPhongShading, Command::kStudioShading},
       {Command::kSectionX, Command::kSectionY, Command::kSectionZ},
   };
   for (const auto& group : kGroups) {

@@ -12,6 +12,7 @@ namespace csgcore {
 enum class Shading : uint8_t {
   kOpenScad,  // OpenSCAD's light: rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space
   kPhong,     // positional light with ambient, diffuse and specular parts (csgcore/phong.hpp)
+  kStudio,    // distant key and fill lights and light from all around (csgcore/studio_light.hpp)
 };
 
 struct FrameSettings {

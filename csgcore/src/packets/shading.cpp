@@ -29,6 +29,22 @@ HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits&
   return hn::Add(hn::Set(d, kAmbient), hn::Abs(dot(d, normal, broadcast(d, settings.light_world))));
 }
 
+/// Returns studio_shade() of points that nothing hides.
+HWY_INLINE WideV unhindered_studio_shade(const ShadeSettings& settings, const RayPacket& rays,
+                                         const PacketHits& hits, int chunk) {
+  const Wide d;
+  const auto normal = load3(d, hits.normal, first_lane(chunk));
+  const WideV towards = dot(d, normal, load3(d, rays.direction, first_lane(chunk)));
+  const WideV zero = hn::Zero(d);
+  const auto on_viewers_side = [&](const Vec3& light) {
+    const WideV cosine = dot(d, normal, broadcast(d, light));
+    return hn::Max(zero, hn::IfThenElse(hn::Gt(towards, zero), hn::Neg(cosine), cosine));
+  };
+  const WideV fill = hn::Mul(hn::Set(d, kStudioFill), on_viewers_side(settings.studio.fill));
+  const WideV key = hn::Mul(hn::Set(d, kStudioKey), on_viewers_side(settings.studio.key));
+  return hn::Add(hn::Add(hn::Set(d, kStudioAmbient), fill), key);
+}
+
 HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& frame,
                             const RayPacket& rays, LaneMask lanes, const Vec3& base,
                             const PacketHits& hits, PacketColors& colors) {
@@ -103,7 +119,9 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
   }
   if (settings.shading == Shading::kPhong) return;
   for (int c = 0; c < kChunks; ++c) {
-    const WideV shade = openscad_shade(settings, hits, c);
+    const WideV shade = settings.shading == Shading::kStudio
+                            ? unhindered_studio_shade(settings, rays, hits, c)
+                            : openscad_shade(settings, hits, c);
     for (int channel = 0; channel < 3; ++channel) {
       const WideV value = hn::Mul(colors_of[channel].chunk[c], shade);
       hn::Store(hn::Min(value, hn::Set(d, 255.0)), d, colors.rgb[channel] + first_lane(c));
@@ -160,6 +178,7 @@ ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
   // The direction of OpenSCAD's light is (−1, 1, 1)/√3 in eye space.
   shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
   shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
+  shade.studio = studio_light(view);
   shade.front = 255.0 * Vec3(settings.front);
   shade.back = 255.0 * Vec3(settings.back);
   if (settings.from_within) shade.from_within = 255.0 * Vec3(*settings.from_within);

@@ -7,6 +7,7 @@
 
 #include "csgcore/frame_settings.hpp"
 #include "csgcore/phong.hpp"
+#include "csgcore/studio_light.hpp"
 #include "packets/trace_list.hpp"
 #include "rays/frame_rays.hpp"
 
@@ -17,6 +18,7 @@ struct ShadeSettings {
   Shading shading = Shading::kOpenScad;
   Vec3 light_world{0.0};  // kOpenScad: shade = 0.2 + |n · light_world|
   PhongLight phong;
+  StudioLight studio;
   glm::dvec3 front{1.0}, back{1.0};  // 0…255
   std::optional<glm::dvec3> from_within;
 };

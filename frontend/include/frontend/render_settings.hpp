@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "csgcore/frame_settings.hpp"
+#include "csgcore/studio.hpp"
 
 namespace frontend {
 
@@ -25,6 +26,9 @@ enum class Technique : uint8_t { kAuto, kCells, kTiles };
 
 /// The most --samples: an edge then has 65 steps between its two colours, and no eye tells more.
 constexpr uint32_t kMaxSamples = 64;
+
+/// The --samples of the studio's light if none are asked for: its lines would be jagged with one.
+constexpr uint32_t kStudioSamples = 4;
 
 /// An 8-bit colour of a scheme (frontend/OPENSCAD.md, "Light and colours").
 struct Rgb {
@@ -45,6 +49,7 @@ struct RenderSettings {
   /// The colour of faces that are seen from within the solid; none: they have that of the outside.
   std::optional<Rgb> from_within;
   Shading shading = Shading::kOpenScad;
+  csgcore::StudioSettings studio;  // of Shading::kStudio
   Show show = Show::kSurface;
   RendererKind renderer = RendererKind::kAuto;
   Technique technique = Technique::kAuto;

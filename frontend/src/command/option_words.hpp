@@ -49,8 +49,8 @@ constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
                                              {"scales", &Overlays::scales},
                                              {"wireframe", &Overlays::edges}};
 constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
-constexpr Word<Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
-                                       {"phong", Shading::kPhong}};
+constexpr Word<Shading> kShadings[] = {
+    {"openscad", Shading::kOpenScad}, {"phong", Shading::kPhong}, {"studio", Shading::kStudio}};
 constexpr Word<Show> kShows[] = {{"surface", Show::kSurface},
                                  {"cells", Show::kCells},
                                  {"depth", Show::kDepth},

@@ -106,6 +106,22 @@ void read_tolerance(const Arguments& arguments, Options& options) {
   }
 }
 
+void read_studio(const Arguments& arguments, Options& options) {
+  csgcore::StudioSettings& studio = options.render.studio;
+  const bool is_studio = options.render.shading == Shading::kStudio;
+  const auto read = [&](const char* option, double& strength) {
+    strength = arguments.number<double>(option, 0, 1, strength);
+    if (arguments.has(option) && !is_studio) {
+      options.warnings.push_back("--" + std::string(option) +
+                                 " has no effect without --shading=studio");
+    }
+  };
+  read("shadows", studio.shadows);
+  read("occlusion", studio.occlusion);
+  read("edges", studio.edges);
+  if (is_studio && !arguments.has("samples")) options.render.samples = kStudioSamples;
+}
+
 void read_render(const Arguments& arguments, RenderSettings& render) {
   read_color_scheme(arguments, render);
   render.shading = choice(arguments, "shading", kShadings, render.shading);
@@ -363,6 +379,7 @@ Options parse_options(const std::vector<std::string>& words) {
   if (!camera_warning.empty()) options.warnings.push_back(camera_warning);
   read_facets(arguments, options.import);
   read_render(arguments, options.render);
+  read_studio(arguments, options);
   read_outputs(arguments, options);
   read_tolerance(arguments, options);
   read_view(arguments, options);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "csgcore/changed_areas.hpp"
@@ -123,39 +122,69 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
   return frame;
 }
 
-/// What layers are drawn over. Its measured channels are always the model's.
-Image PreparedScene::draw_base(SolidRenderer& renderer, bool model_is_layered,
-                               const csgcore::FrameSettings& frame,
-                               const PictureRequest& request) const {
-  const bool wants_model = !model_is_layered || request.settings.measured_channels ||
-                           request.settings.show == Show::kCells;
-  return wants_model ? renderer.draw_model(model_, frame, request) : blank(request.view);
+/// Whether light and edges come after the colours.
+bool PreparedScene::has_studio(const PictureRequest& request) {
+  return request.settings.shading == Shading::kStudio && request.settings.show == Show::kSurface &&
+         request.settings.studio.shows_any();
+}
+
+/// Draws the model in the studio's light, with one ray a pixel.
+Image PreparedScene::draw_studio(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+                                 const PictureRequest& request) const {
+  Image image = renderer.draw_model(model_, frame, request);
+  csgcore::TraceOptions options;
+  options.threads = request.settings.threads;
+  options.stop = request.settings.stop;
+  csgcore::TraceStats stats;
+  csgcore::finish_studio(model_, request.view, request.settings.studio, options, image, stats);
+  request.stats.trace.rays += stats.rays;
+  request.stats.trace.intersections += stats.intersections;
+  request.stats.trace.trace_ms += stats.trace_ms;
+  request.stats.render_ms += stats.trace_ms;
+  return image;
 }
 
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
   const Composition composition = this->composition(renderer, request);
   const csgcore::FrameSettings frame =
       frame_settings(request.settings, !composition.layers.empty());
-  Image image = draw_base(renderer, composition.model_is_layered, frame, request);
+  const bool is_studio = has_studio(request) && !composition.model_is_layered;
+  // What layers are drawn over. Its measured channels are always the model's.
+  const bool wants_model = !(composition.model_is_layered || is_studio) ||
+                           request.settings.measured_channels ||
+                           request.settings.show == Show::kCells;
+  Image image = wants_model ? renderer.draw_model(model_, frame, request) : blank(request.view);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
-  if (composition.layers.empty() || request.settings.show == Show::kCells) return image;
+  if (request.settings.show == Show::kCells || (composition.layers.empty() && !is_studio)) {
+    return image;
+  }
   const LayerSurfaces surfaces(composition.layers, frame);
-  if (!composition.model_is_layered) {
+  if (!composition.model_is_layered && !is_studio) {
     Compositor compositor(image, image.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, request, compositor);
     return image;
   }
-  // Layers have one ray a pixel. So a smooth picture of them is one of more pixels, made smaller.
+  // Layers and the studio's light have one ray a pixel. So a smooth picture of them is one of more
+  // pixels, made smaller.
   const uint32_t side = rays_along_pixel(request);
   csgcore::View view = request.view;
   view.width_px *= side;
   view.height_px *= side;
-  Image fine = blank(view);
-  const Rgb& background = request.settings.scheme.background;
-  fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
-  std::vector<float> depth(fine.rgb.size(), std::numeric_limits<float>::infinity());
-  Compositor compositor(fine, std::move(depth), scene_box_.diagonal(), surfaces);
-  renderer.draw_layers(surfaces, {view, request.settings, request.stats}, compositor);
+  RenderSettings settings = request.settings;
+  settings.samples = 1;
+  const PictureRequest of_fine{view, settings, request.stats};
+  Image fine;
+  if (is_studio) {
+    fine = draw_studio(renderer, frame, of_fine);
+  } else {
+    fine = blank(view);
+    const Rgb& background = settings.scheme.background;
+    fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
+  }
+  if (!composition.layers.empty()) {
+    Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces);
+    renderer.draw_layers(surfaces, of_fine, compositor);
+  }
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
   return image;
 }
@@ -164,7 +193,7 @@ void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& reques
                            const PreparedScene& earlier, const csgcore::SceneEdit& edit,
                            Image& image) const {
   const bool has_layers = !layers_.empty() || !earlier.layers_.empty();
-  if (has_layers || is_within(request) || earlier.is_within(request) ||
+  if (has_layers || has_studio(request) || is_within(request) || earlier.is_within(request) ||
       request.settings.show == Show::kCells || !renderer.draws_areas()) {
     image = draw(renderer, request);
     return;

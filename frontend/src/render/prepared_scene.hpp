@@ -40,9 +40,9 @@ class PreparedScene {
   bool is_within(const PictureRequest& request) const;
   Composition composition(SolidRenderer& renderer, const PictureRequest& request) const;
   csgcore::FrameSettings frame_settings(const RenderSettings& settings, bool has_layers) const;
-  csgcore::Image draw_base(SolidRenderer& renderer, bool model_is_layered,
-                           const csgcore::FrameSettings& frame,
-                           const PictureRequest& request) const;
+  static bool has_studio(const PictureRequest& request);
+  csgcore::Image draw_studio(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+                             const PictureRequest& request) const;
 
   std::shared_ptr<const csgcore::Scene> scene_;
   std::shared_ptr<const csgcore::CanonicalPrimitives> primitives_;

@@ -22,7 +22,7 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
                       s.from_within, s.shading, s.show, s.technique, s.samples, s.leaf_primitives,
                       s.threshold_px, s.measured_channels);
   };
-  return what(a) == what(b);
+  return what(a) == what(b) && a.studio == b.studio;
 }
 
 }  // namespace frontend

@@ -344,9 +344,10 @@ TEST(Options, Panning) {
 }
 
 TEST(Options, ShadingAndShow) {
-  EXPECT_THAT(help_text(), HasSubstr("openscad (default) or phong"));
+  EXPECT_THAT(help_text(), HasSubstr("openscad (default), phong or studio"));
   EXPECT_EQ(parse_drawing({"--shading=phong"}).render.shading, Shading::kPhong);
   EXPECT_EQ(parse_drawing({"--shading=openscad"}).render.shading, Shading::kOpenScad);
+  EXPECT_EQ(parse_drawing({"--shading=studio"}).render.shading, Shading::kStudio);
   EXPECT_THAT(drawing_error({"--shading=x"}), HasSubstr("--shading"));
   EXPECT_EQ(parse_drawing({"--show=surface"}).render.show, Show::kSurface);
   EXPECT_EQ(parse_drawing({"--show=cells"}).render.show, Show::kCells);
@@ -354,6 +355,21 @@ TEST(Options, ShadingAndShow) {
   EXPECT_EQ(parse_drawing({"--show=normals"}).render.show, Show::kNormals);
   EXPECT_EQ(parse_drawing({"--show=id"}).render.show, Show::kId);
   EXPECT_THAT(drawing_error({"--show=x"}), HasSubstr("--show"));
+}
+
+TEST(Options, Studio) {
+  const Options given =
+      parse_drawing({"--shading=studio", "--shadows=0", "--occlusion=0.5", "--edges=1"});
+  EXPECT_EQ(given.render.studio.shadows, 0);
+  EXPECT_EQ(given.render.studio.occlusion, 0.5);
+  EXPECT_EQ(given.render.studio.edges, 1);
+  EXPECT_EQ(given.render.samples, kStudioSamples);
+  EXPECT_THAT(given.warnings, IsEmpty());
+  EXPECT_EQ(parse_drawing({"--shading=studio", "--samples=1"}).render.samples, 1u);
+  EXPECT_THAT(drawing_error({"--shading=studio", "--edges=1.1"}),
+              HasSubstr("give a number from 0 to 1"));
+  EXPECT_THAT(parse_drawing({"--shadows=0.5"}).warnings,
+              ElementsAre("--shadows has no effect without --shading=studio"));
 }
 
 TEST(Options, Numbers) {

@@ -127,6 +127,29 @@ TEST_P(EveryMethod, DrawsAgainAndAgain) {
   }
 }
 
+TEST_P(EveryMethod, AStudioIsLitAlike) {
+  const ScenePointer scene = lattice();
+  settings_.measured_channels = true;
+  renderer_.load(scene);
+  const Image plain = renderer_.draw(view_of(), settings_, stats_);
+  settings_.shading = Shading::kStudio;
+  settings_.samples = kStudioSamples;
+  const Image image = renderer_.draw(view_of(), settings_, stats_);
+  EXPECT_EQ(image.z, plain.z);
+  EXPECT_EQ(image.id, plain.id);
+  RenderSettings by_cpu = settings_of(RendererKind::kCpu, Technique::kTiles);
+  by_cpu.shading = Shading::kStudio;
+  by_cpu.samples = kStudioSamples;
+  const Image wanted = render(*scene, view_of(), by_cpu, stats_);
+  double sum = 0, darker = 0;
+  for (std::size_t pixel = 0; pixel < wanted.rgb.size(); ++pixel) {
+    sum += std::abs(image.rgb[pixel][0] - wanted.rgb[pixel][0]);
+    darker += std::max(0, plain.rgb[pixel][0] - image.rgb[pixel][0]);
+  }
+  EXPECT_LE(sum, 2.0 * static_cast<double>(wanted.rgb.size()));
+  EXPECT_GT(darker, 5.0 * static_cast<double>(wanted.rgb.size()));
+}
+
 TEST_P(EveryMethod, WhatWasMadeOnceTakesNoTimeAgain) {
   renderer_.load(lattice());
   renderer_.draw(view_of(), settings_, stats_);

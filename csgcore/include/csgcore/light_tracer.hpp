@@ -1,0 +1,46 @@
+// Which points of a solid's surface see along a direction: shadows and occlusion without maps.
+//
+// A direction of light is an orthographic view (paper §5, "from the light source point of view").
+// Where a picture's rays go through the centres of pixels, the rays of this view go through the
+// points that are asked about, and the solid's lists are restricted to its tiles as for a picture.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stop_token>
+
+#include "csgcore/geometry.hpp"
+#include "csgcore/solid.hpp"
+
+namespace csgcore {
+
+/// Points on a solid's surface, for example those that a picture shows.
+struct SurfacePoints {
+  std::span<const Vec3> position;  // world space
+  std::span<const Vec3> normal;    // by point: unit, world space, outward of the solid
+};
+
+class LightTracer {
+ public:
+  /// Keeps a reference to the solid.
+  explicit LightTracer(const Solid& solid);
+  ~LightTracer();
+
+  /// Sets lit[i] to 1 if the point `asked[i]` sees infinitely far along `to_light` (unit, world
+  /// space), or else to 0. A point that faces away from the light is not lit. Crossings of the
+  /// solid's boundary that lie less than two thickness tolerances above the point, along its
+  /// normal, are taken for the face that the point lies on: beyond that the answer is exact.
+  /// May be called by several threads at once. A stop request ends it early, with undefined
+  /// answers.
+  void find_lit(const SurfacePoints& points, std::span<const uint32_t> asked, const Vec3& to_light,
+                std::span<uint8_t> lit, const std::stop_token& stop = {}) const;
+
+ private:
+  class Rays;
+  struct Memory;
+  const Solid& solid_;
+  const std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,31 @@
+// The end of a picture in the studio's light (studio_light.hpp): shadows, occlusion and edges.
+#pragma once
+
+#include <cstdint>
+
+#include "csgcore/image.hpp"
+#include "csgcore/solid.hpp"
+#include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
+
+namespace csgcore {
+
+struct StudioSettings {
+  // How much each of these shows, from 0, not at all, to 1.
+  double shadows = 1;    // of the key light
+  double occlusion = 1;  // of what comes from all around
+  double edges = 1;      // lines where faces meet or end
+  /// The directions of the whole sky that are asked, in 16 parts by neighbouring pixels: a multiple
+  /// of 64. A quarter as many go to the key light.
+  uint32_t directions = 256;
+  bool shows_any() const { return shadows > 0 || occlusion > 0 || edges > 0; }
+  bool operator==(const StudioSettings&) const = default;
+};
+
+/// Takes from a solid's picture what the solid hides from its own faces, and draws its edges.
+/// `image` was drawn with Shading::kStudio, one ray a pixel and Boundary::kFirst. Of `options`,
+/// `threads` and `stop` count. Adds to `stats`.
+void finish_studio(const Solid& solid, const View& view, const StudioSettings& settings,
+                   const TraceOptions& options, Image& image, TraceStats& stats);
+
+}  // namespace csgcore

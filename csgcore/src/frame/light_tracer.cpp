@@ -1,0 +1,198 @@
+#include "csgcore/light_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "rays/frame_rays.hpp"
+#include "tiles/tile_tracer.hpp"
+
+namespace csgcore {
+namespace {
+
+/// The most pixels along a side of a light's view. More would cost memory, and divide tiles no
+/// further than their lists ask for.
+constexpr double kMostPixels = 4096;
+
+/// Returns an orthographic view along −to_light of the points' rectangle, with about one pixel a
+/// point.
+View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
+                const Vec3& to_light) {
+  View view;
+  view.projection = Projection::kOrthographic;
+  view.forward = -to_light;
+  const Vec3 aside = std::abs(to_light.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  view.right = glm::normalize(glm::cross(view.forward, aside));
+  view.up = glm::cross(view.right, view.forward);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low(kInfinity), high(-kInfinity);
+  for (const uint32_t point : facing) {
+    const Vec3& p = points.position[point];
+    const Vec3 seen(glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward));
+    low = glm::min(low, seen);
+    high = glm::max(high, seen);
+  }
+  const Vec3 center = 0.5 * (low + high);
+  view.eye = center.x * view.right + center.y * view.up + center.z * view.forward;
+  // Where the points lie in a line, or are one, the rectangle has some width all the same. Half a
+  // pixel more at each side keeps those at its edge within the picture.
+  const double width = high.x - low.x, height = high.y - low.y;
+  const double least = std::max(
+      {1e-6 * (width + height), 1e-9 * glm::length(center), std::numeric_limits<double>::min()});
+  const double area = std::max(width, least) * std::max(height, least);
+  const double pixel = std::max({std::sqrt(area / static_cast<double>(facing.size())),
+                                 width / kMostPixels, height / kMostPixels});
+  const auto pixels = [pixel](double length) {
+    return static_cast<uint32_t>(std::clamp(std::ceil(length / pixel), 0.0, kMostPixels)) + 1;
+  };
+  view.width_px = pixels(width);
+  view.height_px = pixels(height);
+  view.half_height = 0.5 * pixel * view.height_px;
+  return view;
+}
+
+}  // namespace
+
+struct LightTracer::Memory {
+  std::shared_ptr<TileTracer::Workspaces> tiles = std::make_shared<TileTracer::Workspaces>();
+};
+
+LightTracer::LightTracer(const Solid& solid) : solid_(solid), memory_(std::make_unique<Memory>()) {}
+LightTracer::~LightTracer() = default;
+
+/// The rays of one direction, sorted by the pixels of its view that they go through.
+class LightTracer::Rays final : public TileVisitor {
+ public:
+  Rays(const FrameRays& frame, const SurfacePoints& points, std::span<const uint32_t> asked,
+       std::span<const uint32_t> facing, double tolerance, std::span<uint8_t> lit)
+      : frame_(frame),
+        points_(points),
+        asked_(asked),
+        tolerance_(tolerance),
+        lit_(lit),
+        first_(size_t{frame.view.width_px} * frame.view.height_px + 1) {
+    std::vector<uint32_t> pixel_of(facing.size());
+    for (size_t i = 0; i < facing.size(); ++i) {
+      const Vec3 from_eye = position(facing[i]) - frame.view.eye;
+      pixel_of[i] =
+          pixel_at(glm::dot(from_eye, frame.view.right), glm::dot(from_eye, frame.view.up));
+      ++first_[pixel_of[i] + 1];
+    }
+    for (size_t pixel = 1; pixel < first_.size(); ++pixel) first_[pixel] += first_[pixel - 1];
+    sorted_.resize(facing.size());
+    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+    for (size_t i = 0; i < facing.size(); ++i) sorted_[next[pixel_of[i]]++] = facing[i];
+  }
+
+  bool wants(const Tile& tile) const override {
+    for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
+      if (first_of(tile.x, y) < first_of(tile.x + tile.width, y)) return true;
+    }
+    return false;
+  }
+
+  void visit_empty(const Tile& tile) override {
+    for_each_ray(tile, [&](uint32_t ray) { lit_[ray] = 1; });
+  }
+
+  void visit(const Tile& tile, TileRays& rays) override {
+    uint32_t packet[kPacketRays];
+    uint32_t count = 0;
+    for_each_ray(tile, [&](uint32_t ray) {
+      packet[count++] = ray;
+      if (count < kPacketRays) return;
+      trace({packet, count}, rays);
+      count = 0;
+    });
+    if (count > 0) trace({packet, count}, rays);
+  }
+
+ private:
+  const Vec3& position(uint32_t ray) const { return points_.position[asked_[ray]]; }
+
+  uint32_t pixel_at(double u, double v) const {
+    const View& view = frame_.view;
+    const double per_unit = view.height_px / (2 * view.half_height);
+    const auto place = [](double at, uint32_t count) {
+      return static_cast<uint32_t>(std::clamp(std::floor(at), 0.0, count - 1.0));
+    };
+    return place(0.5 * view.height_px - v * per_unit, view.height_px) * view.width_px +
+           place(0.5 * view.width_px + u * per_unit, view.width_px);
+  }
+
+  /// Returns the place in sorted_ of the first ray of a pixel, or of what follows the row's last.
+  uint32_t first_of(uint32_t x, uint32_t y) const {
+    return first_[size_t{y} * frame_.view.width_px + x];
+  }
+
+  template <typename Visit>
+  void for_each_ray(const Tile& tile, const Visit& visit) const {
+    for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
+      const uint32_t end = first_of(tile.x + tile.width, y);
+      for (uint32_t i = first_of(tile.x, y); i < end; ++i) visit(sorted_[i]);
+    }
+  }
+
+  void trace(std::span<const uint32_t> packet, TileRays& rays) {
+    const View& view = frame_.view;
+    PacketLaterals laterals{};
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const Vec3 from_eye = position(packet[lane < packet.size() ? lane : 0]) - view.eye;
+      laterals.u[lane] = glm::dot(from_eye, view.right);
+      laterals.v[lane] = glm::dot(from_eye, view.up);
+    }
+    RayPacket ray_packet;
+    make_rays(frame_, laterals, ray_packet);
+    const LaneMask lanes =
+        packet.size() == kPacketRays ? kAllLanes : (LaneMask{1} << packet.size()) - 1;
+    PacketHits hits;
+    rays.trace(ray_packet, lanes, hits);
+    for (uint32_t lane = 0; lane < packet.size(); ++lane) {
+      const uint32_t ray = packet[lane];
+      const bool is_hit = (hits.hits >> lane & 1) != 0;
+      lit_[ray] = !is_hit || hits.t[lane] >= least_t(ray, ray_packet, lane);
+    }
+  }
+
+  /// Returns from which t on a crossing does not lie before the ray's point.
+  double least_t(uint32_t ray, const RayPacket& rays, uint32_t lane) const {
+    const View& view = frame_.view;
+    const Vec3 origin{rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]};
+    const double t = glm::dot(position(ray) - frame_.pivot - origin, view.forward);
+    const double cosine = -glm::dot(points_.normal[asked_[ray]], view.forward);
+    return t - tolerance_ / cosine;
+  }
+
+  const FrameRays& frame_;
+  const SurfacePoints& points_;
+  const std::span<const uint32_t> asked_;
+  const double tolerance_;  // along normals, world units
+  const std::span<uint8_t> lit_;
+  std::vector<uint32_t> first_;   // by pixel: the place of its first ray in sorted_
+  std::vector<uint32_t> sorted_;  // rays, by pixels
+};
+
+void LightTracer::find_lit(const SurfacePoints& points, std::span<const uint32_t> asked,
+                           const Vec3& to_light, std::span<uint8_t> lit,
+                           const std::stop_token& stop) const {
+  std::vector<uint32_t> facing, facing_points;
+  for (uint32_t i = 0; i < asked.size(); ++i) {
+    lit[i] = 0;
+    if (!(glm::dot(points.normal[asked[i]], to_light) > 0)) continue;
+    facing.push_back(i);
+    facing_points.push_back(asked[i]);
+  }
+  if (facing.empty()) return;
+  const View view = light_view(points, facing_points, to_light);
+  const FrameRays frame = frame_rays(view, solid_.bounds());
+  TraceParameters parameters;
+  parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());
+  parameters.stop = stop;
+  TileTracer tracer(solid_, frame, parameters, TileRules{.centers_only = false}, memory_->tiles);
+  Rays rays(frame, points, asked, facing, 2 * parameters.thickness_tolerance, lit);
+  tracer.visit({0, 0, view.width_px, view.height_px}, rays);
+}
+
+}  // namespace csgcore

@@ -1,0 +1,287 @@
+// Tests of the studio's light: what reaches a point is what the reference says, nothing darkens an
+// open face, and a picture comes near to one by many more directions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "checks.hpp"
+#include "csgcore/light_tracer.hpp"
+#include "csgcore/polyhedron.hpp"
+#include "csgcore/studio.hpp"
+#include "csgcore/studio_light.hpp"
+#include "csgcore/tracer.hpp"
+#include "reference.hpp"
+#include "simd_levels.hpp"
+#include "trace_scenes.hpp"
+
+namespace csgcore {
+namespace {
+
+Solid solid_of(const Scene& scene) { return {canonical_primitives(scene), scene.model}; }
+
+/// The points that a picture shows.
+struct SeenPoints {
+  std::vector<Vec3> position, normal;
+  std::vector<uint32_t> all;
+  SurfacePoints points() const { return {position, normal}; }
+};
+
+SeenPoints seen_of(const Solid& solid, const View& view) {
+  Hits hits;
+  TraceStats stats;
+  trace(solid, view, {}, hits, stats);
+  SeenPoints seen;
+  for (size_t pixel = 0; pixel < hits.s.size(); ++pixel) {
+    if (hits.primitive[pixel] == Hits::kMiss) continue;
+    seen.position.push_back(hits.position[pixel]);
+    seen.normal.push_back(hits.normal[pixel]);
+  }
+  seen.all.resize(seen.position.size());
+  std::iota(seen.all.begin(), seen.all.end(), 0u);
+  return seen;
+}
+
+std::vector<uint8_t> lit(const Solid& solid, const SeenPoints& seen, const Vec3& to_light) {
+  std::vector<uint8_t> result(seen.all.size());
+  LightTracer(solid).find_lit(seen.points(), seen.all, to_light, result);
+  return result;
+}
+
+/// Says by the reference whether points are lit, as far as it does not depend on roundings.
+class LightReference {
+ public:
+  LightReference(const Scene& scene, const Box& bounds, const Vec3& to_light)
+      : view_(checks::view_of(bounds, -to_light, 1)), reference_(scene, with_one_pixel(view_)) {}
+
+  std::optional<bool> is_lit(const Vec3& position, const Vec3& normal) const {
+    const double cosine = -glm::dot(normal, view_.forward);
+    const double size = reference_.model_size();
+    if (std::abs(cosine) < 1e-4) return std::nullopt;
+    if (cosine < 0) return false;
+    const Vec3 from_eye = position - view_.eye;
+    // A view of one pixel has the height of 2 half_height.
+    const double px = 2 * view_.half_height;
+    const double x = glm::dot(from_eye, view_.right) / px;
+    const double y = -glm::dot(from_eye, view_.up) / px;
+    const double least_s = glm::dot(from_eye, view_.forward) - 1e-8 * size / cosine;
+    const auto by = [&](double right, double up) {
+      const LongVec3 shift = LongVec3(1e-9 * size * (right * view_.right + up * view_.up));
+      const ReferenceHit hit = reference_.at(x, y, shift);
+      return !hit.hit() || hit.s >= least_s;
+    };
+    const bool result = by(0, 0);
+    for (const auto& [right, up] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+      if (by(right, up) != result) return std::nullopt;
+    }
+    return result;
+  }
+
+ private:
+  static View& with_one_pixel(View& view) {
+    view.projection = Projection::kOrthographic;
+    view.width_px = view.height_px = 1;
+    view.half_height = 1;
+    return view;
+  }
+  View view_;
+  Reference reference_;
+};
+
+TEST(LightTracer, SaysWhatTheReferenceSays) {
+  std::mt19937 random(1);
+  int shadows = 0, lights = 0;
+  for (const char* const name :
+       {"Ball", "Flush", "Twins", "Thin", "Repeated", "Spheres", "Cones", "Random10", "Random40"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = checks::trace_scene(name).scene;
+    const Solid solid = solid_of(scene);
+    for (const auto& [view_name, view] : checks::trace_views(solid.bounds(), 12, 12)) {
+      SCOPED_TRACE(view_name);
+      const SeenPoints seen = seen_of(solid, view);
+      const Vec3 to_light = checks::random_direction(random);
+      const std::vector<uint8_t> found = lit(solid, seen, to_light);
+      const LightReference reference(scene, solid.bounds(), to_light);
+      for (const uint32_t i : seen.all) {
+        const std::optional<bool> wanted = reference.is_lit(seen.position[i], seen.normal[i]);
+        if (!wanted) continue;
+        EXPECT_EQ(found[i] != 0, *wanted) << i;
+        ++(*wanted ? lights : shadows);
+      }
+    }
+  }
+  EXPECT_GT(lights, 1000);
+  EXPECT_GT(shadows, 1000);
+}
+
+/// Draws with white faces.
+Image studio_picture(const Solid& solid, const View& view, const StudioSettings& settings,
+                     unsigned threads = 0) {
+  FrameSettings frame;
+  frame.shading = Shading::kStudio;
+  TraceOptions options;
+  options.threads = threads;
+  Image image;
+  TraceStats stats;
+  draw(solid, view, frame, options, image, stats);
+  finish_studio(solid, view, settings, options, image, stats);
+  return image;
+}
+
+View from_above(const Box& bounds) {
+  View view = checks::view_of(bounds, glm::normalize(Vec3(0.2, 0.3, -1)), 4.5 * bounds.diagonal());
+  view.width_px = view.height_px = 64;
+  return view;
+}
+
+/// A plate of 20 × 20 with its top at z = 0, and boxes that stand on it or are taken from it.
+Solid plate(Op op, const std::vector<Box>& boxes) {
+  std::vector<Primitive> primitives{
+      make_polyhedron(Polyhedron::box({{-10, -10, -5}, {10, 10, 0}}))};
+  for (const Box& box : boxes) primitives.push_back(make_polyhedron(Polyhedron::box(box)));
+  return solid_of(test_support::scene_of(op, primitives));
+}
+
+TEST(Studio, TakesNothingFromOpenFaces) {
+  const Solid solid = plate(Op::kUnion, {});
+  const View view = from_above(solid.bounds());
+  const Image image = studio_picture(solid, view, {.edges = 0});
+  const Image colors = studio_picture(solid, view, {0, 0, 0});
+  EXPECT_EQ(image.rgb, colors.rgb);
+}
+
+TEST(Studio, DarkensWhatIsHidden) {
+  const Solid open = plate(Op::kUnion, {});
+  const View view = from_above(open.bounds());
+  const Image of_open = studio_picture(open, view, {.edges = 0});
+  const auto darkened = [&](const Solid& solid, const StudioSettings& settings, Vec3 at) {
+    // The pixel that sees this point of the plate.
+    at -= view.eye;
+    const double s = glm::dot(at, view.forward);
+    const double scale = 0.5 * view.height_px / view.half_height / s;
+    const auto x = static_cast<size_t>(0.5 * view.width_px + scale * glm::dot(at, view.right));
+    const auto y = static_cast<size_t>(0.5 * view.height_px - scale * glm::dot(at, view.up));
+    const size_t pixel = y * view.width_px + x;
+    return of_open.rgb[pixel][0] - studio_picture(solid, view, settings).rgb[pixel][0];
+  };
+  const StudioLight light = studio_light(view);
+  // A wall that stands between the plate's middle and the key light, but not over it.
+  const Vec3 to_light = glm::normalize(Vec3(light.key.x, light.key.y, 0));
+  const Vec3 wall = 4.0 * to_light;
+  const Solid walled = plate(Op::kUnion, {{wall - Vec3(1, 1, 0), wall + Vec3(1, 1, 6)}});
+  const StudioSettings shadows{.occlusion = 0, .edges = 0}, occlusion{.shadows = 0, .edges = 0};
+  EXPECT_GT(darkened(walled, shadows, Vec3(0.0)), 45);
+  EXPECT_EQ(darkened(walled, shadows, -1.9 * wall), 0);
+  EXPECT_GT(darkened(walled, occlusion, 0.6 * wall), 3);
+  EXPECT_LT(darkened(walled, occlusion, -1.9 * wall), darkened(walled, occlusion, 0.6 * wall));
+}
+
+TEST(Studio, DrawsLinesWhereFacesMeet) {
+  const Solid solid = plate(Op::kDifference, {{{-4, -4, -2}, {4, 4, 1}}});
+  const View view = from_above(solid.bounds());
+  const Image with = studio_picture(solid, view, {.shadows = 0, .occlusion = 0});
+  const Image without = studio_picture(solid, view, {0, 0, 0});
+  Hits hits;
+  TraceStats stats;
+  trace(solid, view, {}, hits, stats);
+  int lines = 0;
+  for (uint32_t y = 1; y + 1 < view.height_px; ++y) {
+    for (uint32_t x = 1; x + 1 < view.width_px; ++x) {
+      const size_t pixel = size_t{y} * view.width_px + x;
+      const bool is_dark = with.rgb[pixel] != without.rgb[pixel];
+      bool is_inside = true;  // of a face
+      for (const size_t other :
+           {pixel - 1, pixel + 1, pixel - view.width_px, pixel + view.width_px}) {
+        const bool is_same = hits.primitive[other] == hits.primitive[pixel] &&
+                             (hits.primitive[pixel] == Hits::kMiss ||
+                              glm::dot(hits.normal[other], hits.normal[pixel]) > 0.9);
+        is_inside = is_inside && is_same;
+      }
+      if (is_inside) {
+        EXPECT_FALSE(is_dark) << x << ' ' << y;
+      } else if (is_dark) {
+        EXPECT_LT(with.rgb[pixel][1], without.rgb[pixel][1] / 2);
+        ++lines;
+      }
+    }
+  }
+  EXPECT_GT(lines, 100);
+}
+
+/// Occlusion of each pixel by this many directions of its own.
+Image occluded_picture(const Solid& solid, const View& view, uint32_t directions) {
+  Image image = studio_picture(solid, view, {0, 0, 0});
+  Hits hits;
+  TraceStats stats;
+  trace(solid, view, {}, hits, stats);
+  const SeenPoints seen = seen_of(solid, view);
+  std::vector<double> all(seen.all.size()), open(seen.all.size());
+  for (uint32_t i = 0; i < directions; ++i) {
+    const double z = 1 - (2.0 * i + 1) / directions, turn = 2.399963229728653 * i;
+    const double radius = std::sqrt(1 - z * z);
+    const Vec3 direction(radius * std::cos(turn), radius * std::sin(turn), z);
+    const std::vector<uint8_t> found = lit(solid, seen, direction);
+    for (const uint32_t point : seen.all) {
+      const double cosine = std::max(0.0, glm::dot(seen.normal[point], direction));
+      all[point] += cosine;
+      open[point] += found[point] * cosine;
+    }
+  }
+  const StudioLight light = studio_light(view);
+  size_t point = 0;
+  for (size_t pixel = 0; pixel < hits.s.size(); ++pixel) {
+    if (hits.primitive[pixel] == Hits::kMiss) continue;
+    const Vec3& normal = hits.normal[pixel];
+    const double shade = studio_shade(light, normal, open[point] / all[point], 1);
+    for (uint8_t& channel : image.rgb[pixel]) {
+      channel = static_cast<uint8_t>(channel * shade / studio_shade(light, normal, 1, 1) + 0.5);
+    }
+    ++point;
+  }
+  return image;
+}
+
+TEST(Studio, ComesNearToManyDirections) {
+  for (const char* const name : {"Ball", "Flush", "Repeated", "Spheres", "Cones", "Random40"}) {
+    SCOPED_TRACE(name);
+    const Solid solid = solid_of(checks::trace_scene(name).scene);
+    View view = checks::view_of(solid.bounds(), glm::normalize(Vec3(-1, 2, -1.5)),
+                                4.5 * solid.bounds().diagonal());
+    view.width_px = view.height_px = 96;
+    const Image wanted = occluded_picture(solid, view, 1024);
+    for (const uint32_t directions : {64u, 256u}) {
+      StudioSettings settings{.shadows = 0, .edges = 0};
+      settings.directions = directions;
+      const Image image = studio_picture(solid, view, settings);
+      double sum = 0;
+      for (size_t pixel = 0; pixel < wanted.rgb.size(); ++pixel) {
+        sum += std::abs(image.rgb[pixel][0] - wanted.rgb[pixel][0]);
+      }
+      const double mean = sum / static_cast<double>(wanted.rgb.size());
+      EXPECT_LT(mean, directions == 64 ? 2 : 1);
+      RecordProperty(std::string(name) + std::to_string(directions), std::to_string(mean));
+    }
+  }
+}
+
+TEST(Studio, ThreadsAndInstructionSetsDoNotMatter) {
+  for (const char* const name : {"Random10", "Cones"}) {
+    const Solid solid = solid_of(checks::trace_scene(name).scene);
+    View view = checks::view_of(solid.bounds(), glm::normalize(Vec3(-1, 2, -1.5)),
+                                4.5 * solid.bounds().diagonal());
+    view.width_px = 50;
+    view.height_px = 41;
+    const Image wanted = studio_picture(solid, view, {}, 1);
+    EXPECT_EQ(studio_picture(solid, view, {}, 3).rgb, wanted.rgb);
+    checks::for_each_simd_level(
+        [&](SimdLevel) { EXPECT_EQ(studio_picture(solid, view, {}, 1).rgb, wanted.rgb); });
+  }
+}
+
+}  // namespace
+}  // namespace csgcore
