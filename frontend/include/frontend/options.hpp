@@ -71,6 +71,7 @@ struct Options {
   std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
   std::vector<std::string> warnings;            // ignored options, without the word "warning"
   uint32_t frames = 0;  // frames of an animation, each in files of its own; 0: a single picture
+  bool turns = false;   // the camera goes once around the design during them
   bool quiet = false;
   bool prints_echoes = false;      // what the design echoes goes to standard output
   bool has_hard_warnings = false;  // a warning of the design ends the run

@@ -93,7 +93,8 @@ class Run {
       design_ = import();
     }
     const CameraOptions camera_options = with_camera_of(design_camera_, options_.camera);
-    const Camera camera = choose_camera(camera_options, design_.view_box);
+    Camera camera = choose_camera(camera_options, design_.view_box);
+    if (options_.turns) camera.rotation_deg.z += 360.0 * frame_ / options_.frames;
     const csgcore::View view = make_view(camera, camera_options);
     if (!design_.flat_outlines.empty()) {
       color_flat_figure(design_.scene, view, options_.render.scheme);

@@ -113,6 +113,8 @@ constexpr OptionRow kOwnOptions[] = {
     {"occlusion", Takes::kText, "S",
      "how dark the studio's corners and hollows are, 0 to 1; default 1"},
     {"edges", Takes::kText, "S", "how dark the studio's lines are, 0 to 1; default 1"},
+    {"turn", Takes::kNothing, "",
+     "the camera of --animate goes once around the design, about its vertical axis"},
     {"editor", Takes::kText, "COMMAND",
      "the window's editor, a command line with {file}, {line} and {column}, or one whose form is "
      "known (code, subl, emacsclient, gvim, kate …); default: $SCADRAY_EDITOR, $VISUAL, $EDITOR",

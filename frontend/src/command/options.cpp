@@ -230,6 +230,10 @@ void read_outputs(const Arguments& arguments, Options& options) {
   }
   static_assert(kMaxPictures <= 99999, "a frame's number has five digits");
   options.frames = arguments.number<uint32_t>("animate", 0, kMaxPictures, 0);
+  options.turns = arguments.has("turn");
+  if (options.turns && options.frames == 0) {
+    fail("--turn without --animate", "give the number of pictures, --animate=36 for example");
+  }
   if (options.frames > 0 && to_stdout > 0) {
     fail("--animate does not go to standard output", "give -o a file's name");
   }

@@ -636,6 +636,15 @@ TEST_F(Command, AnAnimationOfACsgShowsTheSameAgainAndAgain) {
   EXPECT_EQ(folder_.read("x00000.png"), folder_.read("x00001.png"));
 }
 
+TEST_F(Command, ATurntableGoesOnceAround) {
+  EXPECT_EQ(run({"-o", png_, "--camera=1,2,3,55,0,270,100", file_}).err, "");
+  const csgcore::View wanted = view_;
+  EXPECT_EQ(run({"-o", png_, "--animate=4", "--turn", "--camera=1,2,3,55,0,0,100", file_}).err, "");
+  EXPECT_EQ(drawings_, 5);
+  EXPECT_EQ(view_, wanted);
+  EXPECT_THAT(run({"-o", png_, "--turn", file_}).err, HasSubstr("--turn without --animate"));
+}
+
 TEST_F(Command, AnAnimationThatBreaksLeavesNothing) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", kAnimated));
   const Environment broken("BROKEN_AT", "0.5");
