@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "base/worker_threads.hpp"
@@ -108,13 +109,20 @@ class Studio {
     return view_.projection == Projection::kPerspective ? view_.eye - position : -view_.forward;
   }
 
-  /// Faces that are seen from within the solid have no light of their own to lose.
+  bool is_translucent(uint32_t primitive) const {
+    const std::optional<Color>& color = solid_.primitives()[primitive].color;
+    return color && color->a < 1;
+  }
+
+  /// Faces that are seen from within the solid have no light of their own to lose, and what is seen
+  /// through translucent ones has another.
   void collect_points() {
     point_of_.assign(hits_.s.size(), kNone);
     for (uint32_t y = 0; y < view_.height_px; ++y) {
       for (uint32_t x = 0; x < view_.width_px; ++x) {
         const size_t pixel = index(x, y);
-        if (hits_.primitive[pixel] == Hits::kMiss) continue;
+        if (hits_.primitive[pixel] == Hits::kMiss || is_translucent(hits_.primitive[pixel]))
+          continue;
         const Vec3& position = hits_.position[pixel];
         if (!(glm::dot(hits_.normal[pixel], towards_viewer(position)) > 0)) continue;
         const auto point = static_cast<uint32_t>(positions_.size());

@@ -128,10 +128,7 @@ bool PreparedScene::has_studio(const PictureRequest& request) {
          request.settings.studio.shows_any();
 }
 
-/// Draws the model in the studio's light, with one ray a pixel.
-Image PreparedScene::draw_studio(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
-                                 const PictureRequest& request) const {
-  Image image = renderer.draw_model(model_, frame, request);
+void PreparedScene::finish_studio(const PictureRequest& request, Image& image) const {
   csgcore::TraceOptions options;
   options.threads = request.settings.threads;
   options.stop = request.settings.stop;
@@ -141,14 +138,13 @@ Image PreparedScene::draw_studio(SolidRenderer& renderer, const csgcore::FrameSe
   request.stats.trace.intersections += stats.intersections;
   request.stats.trace.trace_ms += stats.trace_ms;
   request.stats.render_ms += stats.trace_ms;
-  return image;
 }
 
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
   const Composition composition = this->composition(renderer, request);
   const csgcore::FrameSettings frame =
       frame_settings(request.settings, !composition.layers.empty());
-  const bool is_studio = has_studio(request) && !composition.model_is_layered;
+  const bool is_studio = has_studio(request);
   // What layers are drawn over. Its measured channels are always the model's.
   const bool wants_model = !(composition.model_is_layered || is_studio) ||
                            request.settings.measured_channels ||
@@ -174,17 +170,19 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   settings.samples = 1;
   const PictureRequest of_fine{view, settings, request.stats};
   Image fine;
-  if (is_studio) {
-    fine = draw_studio(renderer, frame, of_fine);
-  } else {
+  if (composition.model_is_layered) {
     fine = blank(view);
     const Rgb& background = settings.scheme.background;
     fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
+  } else {
+    fine = renderer.draw_model(model_, frame, of_fine);
+    finish_studio(of_fine, fine);
   }
   if (!composition.layers.empty()) {
     Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, of_fine, compositor);
   }
+  if (is_studio && composition.model_is_layered) finish_studio(of_fine, fine);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
   return image;
 }

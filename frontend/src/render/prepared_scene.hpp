@@ -41,8 +41,7 @@ class PreparedScene {
   Composition composition(SolidRenderer& renderer, const PictureRequest& request) const;
   csgcore::FrameSettings frame_settings(const RenderSettings& settings, bool has_layers) const;
   static bool has_studio(const PictureRequest& request);
-  csgcore::Image draw_studio(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
-                             const PictureRequest& request) const;
+  void finish_studio(const PictureRequest& request, csgcore::Image& image) const;
 
   std::shared_ptr<const csgcore::Scene> scene_;
   std::shared_ptr<const csgcore::CanonicalPrimitives> primitives_;

@@ -155,6 +155,19 @@ TEST(Studio, TakesNothingFromOpenFaces) {
   EXPECT_EQ(image.rgb, colors.rgb);
 }
 
+TEST(Studio, TakesNothingFromWhatIsTranslucent) {
+  Scene scene = checks::trace_scene("Spheres").scene;
+  const auto darker = [&](float alpha) {
+    for (Primitive& primitive : scene.primitives) primitive.color = Color{1, 1, 1, alpha};
+    const Solid solid = solid_of(scene);
+    const View view = from_above(solid.bounds());
+    return studio_picture(solid, view, {.edges = 0}).rgb !=
+           studio_picture(solid, view, {0, 0, 0}).rgb;
+  };
+  EXPECT_TRUE(darker(1));
+  EXPECT_FALSE(darker(0.5f));
+}
+
 TEST(Studio, DarkensWhatIsHidden) {
   const Solid open = plate(Op::kUnion, {});
   const View view = from_above(open.bounds());
