@@ -21,6 +21,7 @@ struct SurfacePoints {
   std::span<const Vec3> normal;    // by point: unit, world space, outward of the solid
 };
 
+/// Answers for the points of one solid.
 class LightTracer {
  public:
   /// Keeps a reference to the solid.

@@ -10,6 +10,7 @@
 
 namespace csgcore {
 
+/// What finish_studio() does.
 struct StudioSettings {
   // How much each of these shows, from 0, not at all, to 1.
   double shadows = 1;    // of the key light
@@ -23,9 +24,9 @@ struct StudioSettings {
 };
 
 /// Takes from a solid's picture what the solid hides from its own faces, and draws its edges.
-/// `image` was drawn with Shading::kStudio, one ray a pixel and Boundary::kFirst.
-/// What has an alpha below 1 keeps its light, and gets lines. Of `options`,
-/// `threads` and `stop` count. Adds to `stats`.
+/// `image` was drawn with Shading::kStudio, one ray a pixel and Boundary::kFirst. What has an alpha
+/// below 1 keeps its light, and gets lines. Of `options`, `threads` and `stop` count. Adds to
+/// `stats`.
 void finish_studio(const Solid& solid, const View& view, const StudioSettings& settings,
                    const TraceOptions& options, Image& image, TraceStats& stats);
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr uint32_t kSquare_px = 4;
 constexpr uint32_t kGroups = kSquare_px * kSquare_px;
-/// The share of directions that go to the key light.
+/// One direction goes to the key light for so many of the whole sky.
 constexpr uint32_t kPerKeyDirection = 4;
 /// The tangent of the angle between the middle of the key light, which is a disc, and its rim:
 /// shadows are soft away from what casts them.
