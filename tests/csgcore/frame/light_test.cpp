@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "csgcore/tracer.hpp"
 #include "reference.hpp"
 #include "simd_levels.hpp"
+#include "support/full_run.hpp"
 #include "trace_scenes.hpp"
 
 namespace csgcore {
@@ -96,27 +98,33 @@ class LightReference {
 TEST(LightTracer, SaysWhatTheReferenceSays) {
   std::mt19937 random(1);
   int shadows = 0, lights = 0;
+  // A million points in a full run.
+  const uint32_t side_px = test_support::full_run() ? 60 : 12;
+  const int directions = test_support::full_run() ? 6 : 1;
   for (const char* const name :
        {"Ball", "Flush", "Twins", "Thin", "Repeated", "Spheres", "Cones", "Random10", "Random40"}) {
     SCOPED_TRACE(name);
     const Scene scene = checks::trace_scene(name).scene;
     const Solid solid = solid_of(scene);
-    for (const auto& [view_name, view] : checks::trace_views(solid.bounds(), 12, 12)) {
+    for (const auto& [view_name, view] : checks::trace_views(solid.bounds(), side_px, side_px)) {
       SCOPED_TRACE(view_name);
       const SeenPoints seen = seen_of(solid, view);
-      const Vec3 to_light = checks::random_direction(random);
-      const std::vector<uint8_t> found = lit(solid, seen, to_light);
-      const LightReference reference(scene, solid.bounds(), to_light);
-      for (const uint32_t i : seen.all) {
-        const std::optional<bool> wanted = reference.is_lit(seen.position[i], seen.normal[i]);
-        if (!wanted) continue;
-        EXPECT_EQ(found[i] != 0, *wanted) << i;
-        ++(*wanted ? lights : shadows);
+      for (int light = 0; light < directions; ++light) {
+        const Vec3 to_light = checks::random_direction(random);
+        const std::vector<uint8_t> found = lit(solid, seen, to_light);
+        const LightReference reference(scene, solid.bounds(), to_light);
+        for (const uint32_t i : seen.all) {
+          const std::optional<bool> wanted = reference.is_lit(seen.position[i], seen.normal[i]);
+          if (!wanted) continue;
+          EXPECT_EQ(found[i] != 0, *wanted) << i;
+          ++(*wanted ? lights : shadows);
+        }
       }
     }
   }
   EXPECT_GT(lights, 1000);
   EXPECT_GT(shadows, 1000);
+  std::printf("%d points in the light, %d in shadow\n", lights, shadows);
 }
 
 /// Draws with white faces.
