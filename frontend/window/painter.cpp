@@ -109,6 +109,7 @@ void Painter::probe(Probe probe) {
   {
     const std::lock_guard lock(mutex_);
     probes_.push_back(std::move(probe));
+    if (is_refining_) outdated_.request_stop();
   }
   wake_.notify_all();
 }
@@ -147,15 +148,28 @@ Painter::Stops Painter::stops_of(const PaintOrder& order) {
   return {order.is_moving ? given_up_.get_token() : outdated_.get_token(), given_up_.get_token()};
 }
 
+/// Paints what comes after the coarse picture. `lock` is unlocked meanwhile.
+void Painter::refine(std::unique_lock<std::mutex>& lock) {
+  PaintOrder order = *std::exchange(coarse_, std::nullopt);
+  order.is_moving = false;
+  const Step step = next_step_;
+  const Stops stops = stops_of(order);
+  is_refining_ = true;
+  lock.unlock();
+  const bool is_painted = paint(order, step, stops);
+  lock.lock();
+  is_refining_ = false;
+  if (is_painted || ordered_ || drops_coarse_) return;
+  coarse_ = std::move(order);  // a probe came in between
+  next_step_ = step;
+}
+
 void Painter::run() {
   std::unique_lock lock(mutex_);
   while (!is_stopping_) {
     if (waits_for_refinement(lock)) {
-      PaintOrder order = *std::exchange(coarse_, std::nullopt);
-      order.is_moving = false;
-      const Stops stops = stops_of(order);
-      lock.unlock();
-      paint(std::move(order), next_step_, stops);
+      refine(lock);
+      continue;
     } else if (ordered_ && !is_stopping_) {
       PaintOrder order = *std::exchange(ordered_, std::nullopt);
       coarse_.reset();
@@ -210,7 +224,8 @@ double Painter::affordable_share(const PaintOrder& order) const {
   return share >= kWholeShare ? 1 : std::max(share, kLeastShare);
 }
 
-void Painter::paint(PaintOrder order, Step step, const Stops& stops) {
+/// Returns false if it was stopped before there was a picture.
+bool Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   const double share = affordable_share(order);
   const auto side = [share](uint32_t px) {
     return std::max(1u, static_cast<uint32_t>(std::lround(share * px)));
@@ -225,13 +240,14 @@ void Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   } catch (const csgcore::Stopped&) {
   }
   activity_.end();
-  if (!painting || stops.drawing.stop_requested()) return;
+  if (!painting || stops.drawing.stop_requested()) return false;
   painting->is_final = size == order.size && draw_the_same(settings, last_settings(order));
   if (!painting->is_final && painting->error.empty()) {
     coarse_ = std::move(order);
     next_step_ = has_studio(settings) ? Step::kFinal : Step::kLit;
   }
   publish(std::move(*painting));
+  return true;
 }
 
 void Painter::load(const PaintOrder& order) {

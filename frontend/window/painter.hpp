@@ -109,7 +109,8 @@ class Painter {
 
   void run();
   Stops stops_of(const PaintOrder& order);
-  void paint(PaintOrder order, Step step, const Stops& stops);
+  void refine(std::unique_lock<std::mutex>& lock);
+  bool paint(PaintOrder order, Step step, const Stops& stops);
   Painting paint_at(const PaintOrder& order, Size size, frontend::RenderSettings settings,
                     const std::stop_token& stop);
   void load(const PaintOrder& order);
@@ -134,6 +135,7 @@ class Painter {
   std::vector<Finding> findings_;
   frontend::ActivityMeter activity_;
   bool drops_coarse_ = false;  // what is coarse_ is not to be refined
+  bool is_refining_ = false;   // a probe goes before that
   std::stop_source given_up_;  // stops what is being painted, at the user's wish
   std::stop_source outdated_;  // stops it if another picture is to be painted
 

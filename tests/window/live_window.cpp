@@ -94,6 +94,11 @@ void LiveWindow::open(const std::string& design, const std::vector<std::string>&
   if (!has_size && gives_size_) {
     setup.words.push_back("--imgsize=" + std::to_string(kWidth) + "," + std::to_string(kHeight));
   }
+  // A studio's picture comes in steps. Those are painter_test's.
+  const bool has_shading =
+      std::any_of(options.begin(), options.end(),
+                  [](const std::string& option) { return option.starts_with("--shading="); });
+  if (!has_shading) setup.words.push_back("--shading=openscad");
   setup.words.insert(setup.words.end(), options.begin(), options.end());
   setup.words.push_back(design);
   setup.environment["DISPLAY"] = display_->name();

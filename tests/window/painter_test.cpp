@@ -406,6 +406,21 @@ class ProbeTest : public PainterTest {
   }
 };
 
+TEST_F(ProbeTest, AnswersProbesBeforeItRefines) {
+  Painter& painter = this->painter();
+  PaintOrder order = order_of(design_of(window_test::kBlock));
+  order.settings.shading = frontend::Shading::kStudio;
+  order.settings.samples = frontend::kStudioSamples;
+  order.size = {400, 300};
+  painter.order(order);
+  next_painting();
+  for (int i = 0; i < 3; ++i) {
+    painter.probe(probe_of(window_test::kBlock, 5, 5));
+    next_finding();
+  }
+  EXPECT_TRUE(next_final().image.rgb == command_picture(order).rgb);
+}
+
 TEST_F(ProbeTest, FindsPointNormalAndLine) {
   const std::string text = "group() {\n\t" + window_test::kBall + "}\n";
   Painter& painter = this->painter();

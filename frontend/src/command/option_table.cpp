@@ -107,7 +107,9 @@ constexpr OptionRow kOwnOptions[] = {
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW",
-     "openscad (default), phong or studio: with occlusion, shadows and lines along edges",
+     "openscad (default), phong or studio (the window's default): with occlusion, shadows and "
+     "lines "
+     "along edges",
      kOneOf<kShadings>},
     {"shadows", Takes::kText, "S", "how dark the studio's shadows are, 0 to 1; default 1"},
     {"occlusion", Takes::kText, "S",

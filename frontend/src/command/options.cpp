@@ -383,12 +383,14 @@ Options parse_options(const std::vector<std::string>& words) {
   if (!camera_warning.empty()) options.warnings.push_back(camera_warning);
   read_facets(arguments, options.import);
   read_render(arguments, options.render);
-  read_studio(arguments, options);
   read_outputs(arguments, options);
   read_tolerance(arguments, options);
   read_view(arguments, options);
-  if (options.outputs.empty() && options.texts.empty() && options.models.empty())
+  if (options.outputs.empty() && options.texts.empty() && options.models.empty()) {
     options.action = Action::kOpenWindow;
+    if (!options.given.shading) options.render.shading = Shading::kStudio;
+  }
+  read_studio(arguments, options);
   check_inputs(options);
   leave_out_crosshairs(options);
   options.openscad_arguments = openscad_arguments_of(arguments);

@@ -364,6 +364,8 @@ TEST(Options, Studio) {
   EXPECT_EQ(given.render.studio.occlusion, 0.5);
   EXPECT_EQ(given.render.studio.edges, 1);
   EXPECT_EQ(given.render.samples, kStudioSamples);
+  EXPECT_EQ(parse_options({"a.scad"}).render.shading, Shading::kStudio);
+  EXPECT_EQ(parse_options({"-o", "a.png", "a.scad"}).render.shading, Shading::kOpenScad);
   EXPECT_THAT(given.warnings, IsEmpty());
   EXPECT_EQ(parse_drawing({"--shading=studio", "--samples=1"}).render.samples, 1u);
   EXPECT_THAT(drawing_error({"--shading=studio", "--edges=1.1"}),
