@@ -36,8 +36,8 @@ constexpr double kMostOfPicture = 0.5;
 /// A share this near to 1 is drawn in full: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
 
-/// The directions of the studio's light in the first picture that has it.
-constexpr uint32_t kFewDirections = 64;
+/// The directions of the studio's light in the first picture that has it, and in the last.
+constexpr uint32_t kFewDirections = 64, kManyDirections = 128;
 
 bool has_studio(const frontend::RenderSettings& settings) {
   return settings.shading == frontend::Shading::kStudio && settings.show == Show::kSurface &&
@@ -49,6 +49,7 @@ frontend::RenderSettings last_settings(const PaintOrder& order) {
   frontend::RenderSettings settings = order.settings;
   if (has_studio(settings)) {
     settings.samples = std::max(settings.samples, frontend::kStudioSamples);
+    settings.studio.directions = kManyDirections;
   }
   return settings;
 }
@@ -59,7 +60,7 @@ frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
   if (order.is_moving) settings.samples = 1;
   if (!has_studio(settings) || step == Step::kFinal) return settings;
   settings.samples = 1;
-  settings.studio.directions = std::min(settings.studio.directions, kFewDirections);
+  settings.studio.directions = kFewDirections;
   if (step == Step::kColors) {
     settings.studio.shadows = settings.studio.occlusion = settings.studio.edges = 0;
   }
@@ -232,7 +233,8 @@ bool Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   };
   const Size size{side(order.size.width_px), side(order.size.height_px)};
   const frontend::RenderSettings settings = settings_of(order, step);
-  activity_.begin("drawing");
+  // The studio's light falls on a picture that is there already: nobody waits for it.
+  if (step == Step::kColors || !has_studio(settings)) activity_.begin("drawing");
   std::optional<Painting> painting;
   try {
     const csgcore::StopScope scope(&stops.all);

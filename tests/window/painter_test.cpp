@@ -162,6 +162,7 @@ TEST_F(PainterTest, LightsAStudioInSteps) {
   order.settings.shading = frontend::Shading::kStudio;
   PaintOrder final = order, lit = order, colors = order;
   final.settings.samples = frontend::kStudioSamples;
+  final.settings.studio.directions = 128;
   lit.settings.studio.directions = 64;
   colors.settings.studio = {0, 0, 0};
   for (const bool is_moving : {false, true}) {
@@ -418,6 +419,7 @@ TEST_F(ProbeTest, AnswersProbesBeforeItRefines) {
     painter.probe(probe_of(window_test::kBlock, 5, 5));
     next_finding();
   }
+  order.settings.studio.directions = 128;
   EXPECT_TRUE(next_final().image.rgb == command_picture(order).rgb);
 }
 
