@@ -39,15 +39,10 @@ constexpr double kWholeShare = 0.85;
 /// The directions of the studio's light in the first picture that has it, and in the last.
 constexpr uint32_t kFewDirections = 64, kManyDirections = 128;
 
-bool has_studio(const frontend::RenderSettings& settings) {
-  return settings.shading == frontend::Shading::kStudio && settings.show == Show::kSurface &&
-         settings.studio.shows_any();
-}
-
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {
   frontend::RenderSettings settings = order.settings;
-  if (has_studio(settings)) {
+  if (draws_studio(settings)) {
     settings.samples = std::max(settings.samples, frontend::kStudioSamples);
     settings.studio.directions = kManyDirections;
   }
@@ -58,7 +53,7 @@ frontend::RenderSettings last_settings(const PaintOrder& order) {
 frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
   frontend::RenderSettings settings = last_settings(order);
   if (order.is_moving) settings.samples = 1;
-  if (!has_studio(settings) || step == Step::kFinal) return settings;
+  if (!draws_studio(settings) || step == Step::kFinal) return settings;
   settings.samples = 1;
   settings.studio.directions = kFewDirections;
   if (step == Step::kColors) {
@@ -233,8 +228,8 @@ bool Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   };
   const Size size{side(order.size.width_px), side(order.size.height_px)};
   const frontend::RenderSettings settings = settings_of(order, step);
-  // The studio's light falls on a picture that is there already: nobody waits for it.
-  if (step == Step::kColors || !has_studio(settings)) activity_.begin("drawing");
+  // While the studio's light is made, a picture stands already: that is no work to be shown.
+  if (!draws_studio(settings)) activity_.begin("drawing");
   std::optional<Painting> painting;
   try {
     const csgcore::StopScope scope(&stops.all);
@@ -246,7 +241,7 @@ bool Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   painting->is_final = size == order.size && draw_the_same(settings, last_settings(order));
   if (!painting->is_final && painting->error.empty()) {
     coarse_ = std::move(order);
-    next_step_ = has_studio(settings) ? Step::kFinal : Step::kLit;
+    next_step_ = draws_studio(settings) ? Step::kFinal : Step::kLit;
   }
   publish(std::move(*painting));
   return true;
@@ -283,7 +278,7 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
     const Clock::time_point loaded = Clock::now();
     const csgcore::View view = order.navigation.view(size);
     // What is kept for the next edit is a picture without the studio's light, as that edit's first.
-    painting.image = size == order.size && !has_studio(settings)
+    painting.image = size == order.size && !draws_studio(settings)
                          ? renderer_.redraw(view, settings, painting.stats)
                          : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
@@ -291,7 +286,7 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
                             settings.scheme, *order.design);
     const auto traced = static_cast<double>(painting.stats.edit.pixels_traced);
     const bool is_most = traced >= kMostOfPicture * size.width_px * size.height_px;
-    const bool is_plain = settings.samples == 1 && !has_studio(settings);
+    const bool is_plain = settings.samples == 1 && !draws_studio(settings);
     if (is_plain && is_most) ms_per_pixel_ = ms_since(loaded) / traced;
     if (is_plain && size == order.size) note_drawn(order, ms_since(start));
   } catch (const std::bad_alloc&) {

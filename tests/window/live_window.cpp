@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 #include "navigation.hpp"
 #include "projection.hpp"
@@ -88,17 +89,15 @@ void LiveWindow::open(const std::string& design, const std::vector<std::string>&
   id_.clear();
   std::filesystem::remove(folder_ / "stats");
   setup.words = {SCADRAY_PROGRAM, "--stats=" + (folder_ / "stats")};
-  const bool has_size = std::any_of(options.begin(), options.end(), [](const std::string& option) {
-    return option.starts_with("--imgsize=");
-  });
-  if (!has_size && gives_size_) {
+  const auto has = [&](std::string_view start) {
+    return std::any_of(options.begin(), options.end(),
+                       [&](const std::string& option) { return option.starts_with(start); });
+  };
+  if (!has("--imgsize=") && gives_size_) {
     setup.words.push_back("--imgsize=" + std::to_string(kWidth) + "," + std::to_string(kHeight));
   }
   // A studio's picture comes in steps. Those are painter_test's.
-  const bool has_shading =
-      std::any_of(options.begin(), options.end(),
-                  [](const std::string& option) { return option.starts_with("--shading="); });
-  if (!has_shading) setup.words.push_back("--shading=openscad");
+  if (!has("--shading=")) setup.words.push_back("--shading=openscad");
   setup.words.insert(setup.words.end(), options.begin(), options.end());
   setup.words.push_back(design);
   setup.environment["DISPLAY"] = display_->name();

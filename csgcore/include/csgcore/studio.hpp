@@ -25,8 +25,8 @@ struct StudioSettings {
 
 /// Takes from a solid's picture what the solid hides from its own faces, and draws its edges.
 /// `image` was drawn with Shading::kStudio, one ray a pixel and Boundary::kFirst. What has an alpha
-/// below 1 keeps its light, and gets lines. Of `options`, `threads` and `stop` count. Adds to
-/// `stats`.
+/// below 1 keeps its light, and gets lines. `options` may name no area; its samples do not
+/// count. Adds to `stats`.
 void finish_studio(const Solid& solid, const View& view, const StudioSettings& settings,
                    const TraceOptions& options, Image& image, TraceStats& stats);
 

@@ -16,10 +16,16 @@ namespace {
 /// further than their lists ask for.
 constexpr double kMostPixels = 4096;
 
+/// The least width of the points' rectangle, as a share of its height and width together: points in
+/// a line then fill the pixels of a few rows. And as a share of their distance from the origin,
+/// where they are one: far above a double's rounding, so that the view has some size.
+constexpr double kLeastWidth = 1e-6;
+constexpr double kLeastSize = 1e-9;
+
 /// Returns an orthographic view along −to_light of the points' rectangle, with about one pixel a
 /// point.
-View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
-                const Vec3& to_light) {
+View light_view(const SurfacePoints& points, std::span<const uint32_t> asked,
+                std::span<const uint32_t> facing, const Vec3& to_light) {
   View view;
   view.projection = Projection::kOrthographic;
   view.forward = -to_light;
@@ -28,8 +34,8 @@ View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
   view.up = glm::cross(view.right, view.forward);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 low(kInfinity), high(-kInfinity);
-  for (const uint32_t point : facing) {
-    const Vec3& p = points.position[point];
+  for (const uint32_t ray : facing) {
+    const Vec3& p = points.position[asked[ray]];
     const Vec3 seen(glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward));
     low = glm::min(low, seen);
     high = glm::max(high, seen);
@@ -39,8 +45,8 @@ View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
   // Where the points lie in a line, or are one, the rectangle has some width all the same. Half a
   // pixel more at each side keeps those at its edge within the picture.
   const double width = high.x - low.x, height = high.y - low.y;
-  const double least = std::max(
-      {1e-6 * (width + height), 1e-9 * glm::length(center), std::numeric_limits<double>::min()});
+  const double least = std::max({kLeastWidth * (width + height), kLeastSize * glm::length(center),
+                                 std::numeric_limits<double>::min()});
   const double area = std::max(width, least) * std::max(height, least);
   const double pixel = std::max({std::sqrt(area / static_cast<double>(facing.size())),
                                  width / kMostPixels, height / kMostPixels});
@@ -177,15 +183,13 @@ class LightTracer::Rays final : public TileVisitor {
 void LightTracer::find_lit(const SurfacePoints& points, std::span<const uint32_t> asked,
                            const Vec3& to_light, std::span<uint8_t> lit,
                            const std::stop_token& stop) const {
-  std::vector<uint32_t> facing, facing_points;
+  std::vector<uint32_t> facing;
   for (uint32_t i = 0; i < asked.size(); ++i) {
     lit[i] = 0;
-    if (!(glm::dot(points.normal[asked[i]], to_light) > 0)) continue;
-    facing.push_back(i);
-    facing_points.push_back(asked[i]);
+    if (glm::dot(points.normal[asked[i]], to_light) > 0) facing.push_back(i);
   }
   if (facing.empty()) return;
-  const View view = light_view(points, facing_points, to_light);
+  const View view = light_view(points, asked, facing, to_light);
   const FrameRays frame = frame_rays(view, solid_.bounds());
   TraceParameters parameters;
   parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());

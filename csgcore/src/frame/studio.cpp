@@ -75,14 +75,16 @@ class Studio {
  public:
   Studio(const Solid& solid, const View& view, const StudioSettings& settings,
          const TraceOptions& options, Image& image)
-      : solid_(solid), view_(view), settings_(settings), options_(options), image_(image) {}
+      : solid_(solid),
+        view_(view),
+        light_(studio_light(view)),
+        settings_(settings),
+        options_(options),
+        image_(image) {}
 
   void finish(TraceStats& stats) {
     TraceStats of_hits;
-    TraceOptions options;
-    options.threads = options_.threads;
-    options.stop = options_.stop;
-    trace(solid_, view_, options, hits_, of_hits);
+    trace(solid_, view_, options_, hits_, of_hits);
     stats.rays += of_hits.rays;
     stats.intersections += of_hits.intersections;
     collect_points();
@@ -132,12 +134,11 @@ class Studio {
         groups_[y % kSquare_px * kSquare_px + x % kSquare_px].push_back(point);
       }
     }
-    light_.resize(positions_.size());
+    sums_.resize(positions_.size());
   }
 
   void ask_for_light() {
     const LightTracer tracer(solid_);
-    const Vec3 key = studio_light(view_).key;
     tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
       const std::vector<uint32_t>& asked = groups_[group];
       std::vector<uint8_t> lit(asked.size());
@@ -147,7 +148,7 @@ class Studio {
         for (size_t i = 0; i < asked.size(); ++i) {
           const double cosine = glm::dot(normals_[asked[i]], direction);
           if (cosine <= 0) continue;
-          Light& light = light_[asked[i]];
+          Light& light = sums_[asked[i]];
           light.*all += static_cast<float>(cosine);
           if (lit[i] != 0) light.*open += static_cast<float>(cosine);
         }
@@ -161,7 +162,7 @@ class Studio {
       if (settings_.shadows > 0) {
         const uint32_t count = settings_.directions / kPerKeyDirection;
         for (uint32_t i = group; i < count; i += kGroups) {
-          ask(key_direction(view_, key, i, count), &Light::key, &Light::open_key);
+          ask(key_direction(view_, light_.key, i, count), &Light::key, &Light::open_key);
         }
       }
     });
@@ -190,13 +191,12 @@ class Studio {
     Light sum;
     for_each_near(x, y, [&](size_t other) {
       if (point_of_[other] == kNone || !are_of_one_face(pixel, other)) return;
-      sum += light_[point_of_[other]];
+      sum += sums_[point_of_[other]];
     });
     const double open = 1 - settings_.occlusion * (1 - share(sum.open_sky, sum.sky));
     const double key = 1 - settings_.shadows * (1 - share(sum.open_key, sum.key));
-    const StudioLight light = studio_light(view_);
     const Vec3& normal = hits_.normal[pixel];
-    return studio_shade(light, normal, open, key) / studio_shade(light, normal, 1, 1);
+    return studio_shade(light_, normal, open, key) / studio_shade(light_, normal, 1, 1);
   }
 
   template <typename Visit>
@@ -227,13 +227,14 @@ class Studio {
 
   const Solid& solid_;
   const View& view_;
+  const StudioLight light_;
   const StudioSettings& settings_;
   const TraceOptions& options_;
   Image& image_;
   Hits hits_;
   std::vector<uint32_t> point_of_;  // by pixel; kNone: it shows none that light falls on
   std::vector<Vec3> positions_, normals_;
-  std::vector<Light> light_;  // by point
+  std::vector<Light> sums_;  // by point
   std::array<std::vector<uint32_t>, kGroups> groups_;
 };
 

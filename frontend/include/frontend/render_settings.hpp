@@ -71,6 +71,9 @@ struct RenderSettings {
 /// Returns whether both settings give the same picture.
 bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
 
+/// Returns whether the studio's shadows, occlusion or edges are drawn.
+bool draws_studio(const RenderSettings& settings);
+
 /// Returns OpenSCAD's eleven colour schemes in its order; the first is the default.
 std::span<const ColorScheme> color_schemes();
 

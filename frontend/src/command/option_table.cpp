@@ -108,8 +108,7 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW",
      "openscad (default), phong or studio (the window's default): with occlusion, shadows and "
-     "lines "
-     "along edges",
+     "lines along edges",
      kOneOf<kShadings>},
     {"shadows", Takes::kText, "S", "how dark the studio's shadows are, 0 to 1; default 1"},
     {"occlusion", Takes::kText, "S",

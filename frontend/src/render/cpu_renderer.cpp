@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/elapsed.hpp"
+#include "csgcore/studio.hpp"
 #include "csgcore/surfaces.hpp"
 #include "csgcore/tracer.hpp"
 #include "render/scene_subdivision.hpp"
@@ -130,6 +131,13 @@ class CpuRenderer final : public SolidRenderer {
 };
 
 }  // namespace
+
+void finish_studio(const Solid& solid, const PictureRequest& request, Image& image) {
+  TraceStats stats;
+  csgcore::finish_studio(solid, request.view, request.settings.studio,
+                         trace_options(request.settings, Boundary::kFirst), image, stats);
+  add(stats, request.stats);
+}
 
 std::unique_ptr<SolidRenderer> make_cpu_renderer() { return std::make_unique<CpuRenderer>(); }
 

@@ -122,29 +122,11 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
   return frame;
 }
 
-/// Whether light and edges come after the colours.
-bool PreparedScene::has_studio(const PictureRequest& request) {
-  return request.settings.shading == Shading::kStudio && request.settings.show == Show::kSurface &&
-         request.settings.studio.shows_any();
-}
-
-void PreparedScene::finish_studio(const PictureRequest& request, Image& image) const {
-  csgcore::TraceOptions options;
-  options.threads = request.settings.threads;
-  options.stop = request.settings.stop;
-  csgcore::TraceStats stats;
-  csgcore::finish_studio(model_, request.view, request.settings.studio, options, image, stats);
-  request.stats.trace.rays += stats.rays;
-  request.stats.trace.intersections += stats.intersections;
-  request.stats.trace.trace_ms += stats.trace_ms;
-  request.stats.render_ms += stats.trace_ms;
-}
-
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
   const Composition composition = this->composition(renderer, request);
   const csgcore::FrameSettings frame =
       frame_settings(request.settings, !composition.layers.empty());
-  const bool is_studio = has_studio(request);
+  const bool is_studio = draws_studio(request.settings);
   // What layers are drawn over. Its measured channels are always the model's.
   const bool wants_model = !(composition.model_is_layered || is_studio) ||
                            request.settings.measured_channels ||
@@ -176,13 +158,13 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
     fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
   } else {
     fine = renderer.draw_model(model_, frame, of_fine);
-    finish_studio(of_fine, fine);
+    finish_studio(model_, of_fine, fine);
   }
   if (!composition.layers.empty()) {
     Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, of_fine, compositor);
   }
-  if (is_studio && composition.model_is_layered) finish_studio(of_fine, fine);
+  if (is_studio && composition.model_is_layered) finish_studio(model_, of_fine, fine);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
   return image;
 }
@@ -191,8 +173,9 @@ void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& reques
                            const PreparedScene& earlier, const csgcore::SceneEdit& edit,
                            Image& image) const {
   const bool has_layers = !layers_.empty() || !earlier.layers_.empty();
-  if (has_layers || has_studio(request) || is_within(request) || earlier.is_within(request) ||
-      request.settings.show == Show::kCells || !renderer.draws_areas()) {
+  if (has_layers || draws_studio(request.settings) || is_within(request) ||
+      earlier.is_within(request) || request.settings.show == Show::kCells ||
+      !renderer.draws_areas()) {
     image = draw(renderer, request);
     return;
   }

@@ -40,8 +40,6 @@ class PreparedScene {
   bool is_within(const PictureRequest& request) const;
   Composition composition(SolidRenderer& renderer, const PictureRequest& request) const;
   csgcore::FrameSettings frame_settings(const RenderSettings& settings, bool has_layers) const;
-  static bool has_studio(const PictureRequest& request);
-  void finish_studio(const PictureRequest& request, csgcore::Image& image) const;
 
   std::shared_ptr<const csgcore::Scene> scene_;
   std::shared_ptr<const csgcore::CanonicalPrimitives> primitives_;

@@ -25,4 +25,9 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
   return what(a) == what(b) && a.studio == b.studio;
 }
 
+bool draws_studio(const RenderSettings& settings) {
+  return settings.shading == Shading::kStudio && settings.show == Show::kSurface &&
+         settings.studio.shows_any();
+}
+
 }  // namespace frontend

@@ -71,6 +71,10 @@ class SolidRenderer {
 /// Returns the drawing by the CPU tracer, csgcore/tracer.hpp.
 std::unique_ptr<SolidRenderer> make_cpu_renderer();
 
+/// csgcore::finish_studio() by the CPU, for a picture of one ray a pixel by either renderer.
+void finish_studio(const csgcore::Solid& solid, const PictureRequest& request,
+                   csgcore::Image& image);
+
 /// OpenGL cannot be had, or failed. The CPU may still draw.
 class GlFailure : public Error {
  public:

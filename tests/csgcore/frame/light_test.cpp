@@ -55,6 +55,15 @@ std::vector<uint8_t> lit(const Solid& solid, const SeenPoints& seen, const Vec3&
   return result;
 }
 
+/// The cosine at a face, steeper than which rounding moves a crossing too far along the ray to be
+/// told from another.
+constexpr double kLeastCosine = 1e-4;
+/// As shares of the model's size: how far rays are moved sideways, to find what depends on
+/// roundings; and along the normal, what counts as the point's own face, which is above
+/// LightTracer's 2e-9.
+constexpr double kSideways = 1e-9;
+constexpr double kOwnFace = 1e-8;
+
 /// Says by the reference whether points are lit, as far as it does not depend on roundings.
 class LightReference {
  public:
@@ -64,16 +73,16 @@ class LightReference {
   std::optional<bool> is_lit(const Vec3& position, const Vec3& normal) const {
     const double cosine = -glm::dot(normal, view_.forward);
     const double size = reference_.model_size();
-    if (std::abs(cosine) < 1e-4) return std::nullopt;
+    if (std::abs(cosine) < kLeastCosine) return std::nullopt;
     if (cosine < 0) return false;
     const Vec3 from_eye = position - view_.eye;
     // A view of one pixel has the height of 2 half_height.
     const double px = 2 * view_.half_height;
     const double x = glm::dot(from_eye, view_.right) / px;
     const double y = -glm::dot(from_eye, view_.up) / px;
-    const double least_s = glm::dot(from_eye, view_.forward) - 1e-8 * size / cosine;
+    const double least_s = glm::dot(from_eye, view_.forward) - kOwnFace * size / cosine;
     const auto by = [&](double right, double up) {
-      const LongVec3 shift = LongVec3(1e-9 * size * (right * view_.right + up * view_.up));
+      const LongVec3 shift = LongVec3(kSideways * size * (right * view_.right + up * view_.up));
       const ReferenceHit hit = reference_.at(x, y, shift);
       return !hit.hit() || hit.s >= least_s;
     };
