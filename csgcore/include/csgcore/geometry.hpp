@@ -2,6 +2,7 @@
 // tolerances that are fitted to a solid's box.
 #pragma once
 
+#include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -9,6 +10,9 @@
 namespace csgcore {
 
 using Vec3 = glm::dvec3;
+
+/// Returns the largest coordinate.
+inline double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 using Mat3 = glm::dmat3;  // column-major, as GLM stores it: m[column][row]
 
 /// Closed axis-aligned box. A default-constructed box is empty (min > max) and is the identity of

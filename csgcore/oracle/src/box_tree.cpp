@@ -11,8 +11,6 @@ namespace {
 using csgcore::Box;
 using csgcore::Vec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A box is widened by this share of its coordinates and of the ray's origin, which is far more
 /// than the rounding of half a dozen operations.
 constexpr double kBoxSlack = 1e-12;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
 
 namespace oracle {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class BoxTree {
  public:

@@ -9,14 +9,6 @@ namespace {
 
 using csgcore::TriangleMesh;
 
-double middle(const Interval& interval) {
-  return interval.inf() + (interval.sup() - interval.inf()) / 2;
-}
-
-csgcore::Vec3 middle(const Vector<Interval>& v) {
-  return {middle(v[0]), middle(v[1]), middle(v[2])};
-}
-
 template <class Number>
 Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};

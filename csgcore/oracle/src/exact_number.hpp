@@ -19,6 +19,11 @@ using Interval = CGAL::Interval_nt<false>;
 using RoundingUp = CGAL::Protect_FPU_rounding<true>;
 using Undecided = CGAL::Uncertain_conversion_exception;
 
+/// Returns a number in the interval.
+inline double middle(const Interval& interval) {
+  return interval.inf() + (interval.sup() - interval.inf()) / 2;
+}
+
 /// Returns an interval around the number; of width 0 if the number is a double.
 Interval enclose(const Exact& number);
 

@@ -15,8 +15,6 @@ using csgcore::Affine;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-double middle(const Interval& interval) { return 0.5 * (interval.inf() + interval.sup()); }
-
 /// Returns the power of two that scales the largest entry to [1, 2).
 Exact scale_to_one(const std::array<Vector<Exact>, 3>& matrix) {
   double largest = 0;

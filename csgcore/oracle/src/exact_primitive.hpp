@@ -29,6 +29,10 @@ namespace oracle {
 template <class Number>
 using Vector = std::array<Number, 3>;
 
+inline csgcore::Vec3 middle(const Vector<Interval>& v) {
+  return {middle(v[0]), middle(v[1]), middle(v[2])};
+}
+
 template <class Number>
 Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

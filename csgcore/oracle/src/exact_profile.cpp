@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "box_tree.hpp"
+
 namespace oracle {
 namespace {
 
@@ -13,9 +15,8 @@ using csgcore::Vec2;
 using Kind = ProfileEdge::Kind;
 using Index = unsigned long long;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What boxes in doubles allow for rounding, as a share of the figure's or the solid's size.
-constexpr double kBoxSlack = 1e-7;
+constexpr double kFigureSlack = 1e-7;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -24,10 +25,6 @@ bool is_on_arc(const Vec2& start, const ProfileEdge& edge, const Vec2& direction
   const double radius = glm::length(start - edge.control);
   const Vec2 on = edge.control + radius / glm::length(direction) * direction;
   return (cross(edge.end - start, on - start) < 0) == edge.is_counterclockwise;
-}
-
-double middle(const Interval& interval) {
-  return interval.inf() + (interval.sup() - interval.inf()) / 2;
 }
 
 Interval hull(const Interval& a, const Interval& b) {
@@ -225,8 +222,8 @@ ExactProfile::ExactProfile(const csgcore::Primitive& primitive, const Vector<Exa
   for (int i = 0; i < 3; ++i) size += most[i] - least[i];
   for (int i = 0; i < 3; ++i) {
     const double m = CGAL::to_double(middle[i]);
-    min_[i] = lambda * (least[i] - m - kBoxSlack * size);
-    max_[i] = lambda * (most[i] - m + kBoxSlack * size);
+    min_[i] = lambda * (least[i] - m - kFigureSlack * size);
+    max_[i] = lambda * (most[i] - m + kFigureSlack * size);
   }
 }
 
@@ -239,8 +236,8 @@ ExactProfile::Edge ExactProfile::make_edge(const Vec2& start, const ProfileEdge&
     made.chord[i] = Exact(edge.end[i]) - made.start[i];
     control[i] = Exact(edge.control[i]) - made.start[i];
     const Interval range = range_of(start, edge, Interval(i == 0), Interval(i == 1));
-    made.min[i] = range.inf() - kBoxSlack * size_;
-    made.max[i] = range.sup() + kBoxSlack * size_;
+    made.min[i] = range.inf() - kFigureSlack * size_;
+    made.max[i] = range.sup() + kFigureSlack * size_;
   }
   const Exact area = control[0] * made.chord[1] - control[1] * made.chord[0];
   if (edge.kind == Kind::kLine || (edge.kind == Kind::kBezier && area.is_zero())) {
@@ -331,7 +328,7 @@ bool ExactProfile::may_meet(const Edge& edge, const Way& way, const Window& wind
     }
     const double share = at_low / (at_low - at_high);
     const double at = window.low + share * (window.high - window.low);
-    const double slack = kBoxSlack * (window.high - window.low);
+    const double slack = kFigureSlack * (window.high - window.low);
     (at_low < 0 ? low : high) = at_low < 0 ? std::max(low, at - slack) : std::min(high, at + slack);
   };
   const auto cut_axis = [&](const Polynomial& along, int axis) {

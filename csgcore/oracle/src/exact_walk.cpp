@@ -14,14 +14,6 @@ namespace {
 using csgcore::Projection;
 using csgcore::Vec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double middle(const Interval& interval) {
-  return interval.inf() + (interval.sup() - interval.inf()) / 2;
-}
-
-Vec3 middle(const Vector<Interval>& v) { return {middle(v[0]), middle(v[1]), middle(v[2])}; }
-
 }  // namespace
 
 ExactWalk::Shown ExactWalk::see(const SeenRay& ray) {

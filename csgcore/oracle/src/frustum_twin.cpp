@@ -25,8 +25,8 @@ Number radius_at(const Target<Number>& target, const Number& z) {
 }
 
 template <class Number>
-Walls<Number> walls_of(const Target<Number>& target, const Vector<Number>& o,
-                       const Vector<Number>& d) {
+Walls<Number> walls_of_frustum(const Target<Number>& target, const Vector<Number>& o,
+                               const Vector<Number>& d) {
   Quadratic<Number> wall;
   const Number& w = target.squared_height;
   const Number radius = radius_at(target, o[2]), growth = target.growth * d[2];
@@ -63,11 +63,11 @@ class FrustumTwin final : public ExactTwin {
   }
   Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
                      const Vector<Exact>& d) const override {
-    return walls_of(target, o, d);
+    return walls_of_frustum(target, o, d);
   }
   Walls<Interval> walls(const Target<Interval>& target, const Vector<Interval>& o,
                         const Vector<Interval>& d) const override {
-    return walls_of(target, o, d);
+    return walls_of_frustum(target, o, d);
   }
   Vector<Interval> wall_normal(const Target<Interval>& target,
                                const Vector<Interval>& point) const override {
@@ -94,10 +94,10 @@ class FrustumTwin final : public ExactTwin {
   }
 };
 
-constexpr FrustumTwin kTwin;
+constexpr FrustumTwin kFrustumTwin;
 
 }  // namespace
 
-constinit const ExactTwin& Frustum_twin = kTwin;
+constinit const ExactTwin& Frustum_twin = kFrustumTwin;
 
 }  // namespace oracle

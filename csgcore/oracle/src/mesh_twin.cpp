@@ -150,10 +150,10 @@ class MeshTwin final : public ExactTwin {
   }
 };
 
-constexpr MeshTwin kTwin;
+constexpr MeshTwin kMeshTwin;
 
 }  // namespace
 
-constinit const ExactTwin& Mesh_twin = kTwin;
+constinit const ExactTwin& Mesh_twin = kMeshTwin;
 
 }  // namespace oracle

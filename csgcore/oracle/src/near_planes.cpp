@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "box_tree.hpp"
+
 namespace oracle {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Error bound of a dozen operations, as a share of their largest term, for every rounding mode.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();

@@ -10,8 +10,6 @@ namespace {
 using csgcore::Box;
 using csgcore::Vec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::vector<Box> boxes_of(const std::vector<BoundaryTriangle>& triangles) {
   std::vector<Box> boxes;
   for (const BoundaryTriangle& t : triangles) {

@@ -128,10 +128,10 @@ class PolyhedronTwin final : public ExactTwin {
   }
 };
 
-constexpr PolyhedronTwin kTwin;
+constexpr PolyhedronTwin kPolyhedronTwin;
 
 }  // namespace
 
-constinit const ExactTwin& Polyhedron_twin = kTwin;
+constinit const ExactTwin& Polyhedron_twin = kPolyhedronTwin;
 
 }  // namespace oracle

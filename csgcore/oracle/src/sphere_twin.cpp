@@ -12,8 +12,8 @@ using csgcore::Vec3;
 double radius_of(const Primitive& sphere) { return sphere.as<csgcore::SphereShape>().radius; }
 
 template <class Number>
-Walls<Number> walls_of(const Target<Number>& target, const Vector<Number>& o,
-                       const Vector<Number>& d) {
+Walls<Number> walls_of_sphere(const Target<Number>& target, const Vector<Number>& o,
+                              const Vector<Number>& d) {
   Quadratic<Number> wall;
   const Number radius2 = CGAL::square(target.radius);
   wall.a = dot(d, d);
@@ -36,11 +36,11 @@ class SphereTwin final : public ExactTwin {
   }
   Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
                      const Vector<Exact>& d) const override {
-    return walls_of(target, o, d);
+    return walls_of_sphere(target, o, d);
   }
   Walls<Interval> walls(const Target<Interval>& target, const Vector<Interval>& o,
                         const Vector<Interval>& d) const override {
-    return walls_of(target, o, d);
+    return walls_of_sphere(target, o, d);
   }
   Vector<Interval> wall_normal(const Target<Interval>&,
                                const Vector<Interval>& point) const override {
@@ -61,10 +61,10 @@ class SphereTwin final : public ExactTwin {
   std::vector<Primitive> simpler(const Primitive&) const override { return {}; }
 };
 
-constexpr SphereTwin kTwin;
+constexpr SphereTwin kSphereTwin;
 
 }  // namespace
 
-constinit const ExactTwin& Sphere_twin = kTwin;
+constinit const ExactTwin& Sphere_twin = kSphereTwin;
 
 }  // namespace oracle

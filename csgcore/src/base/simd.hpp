@@ -19,9 +19,9 @@ void limit_simd_level(SimdLevel widest);
 }  // namespace csgcore
 
 /// The instruction sets of Highway for which nothing is compiled. Vectors whose length is not known
-/// to the compiler (SVE, RVV) cannot be put into arrays. Without SCADRAY_ALL_INSTRUCTION_SETS two
-/// more are left out, which are made of the same source as the others and take half of the
-/// compiler's time.
+/// to the compiler (SVE, RVV) cannot be put into arrays. Under the sanitizers, and without
+/// SCADRAY_ALL_INSTRUCTION_SETS, two more are left out, which are made of the same source as the
+/// others and take half of the compiler's time.
 #define CSGCORE_UNUSED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #ifdef CSGCORE_TWO_TARGETS

@@ -28,7 +28,7 @@ constexpr uint32_t kPerKeyDirection = 4;
 /// shadows are soft away from what casts them.
 constexpr double kKeyRadius = 0.06;
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t kNoPoint = std::numeric_limits<uint32_t>::max();
 
 /// The cosine of the largest angle between normals of the same smooth face in pixels side by side.
 const double kSmoothCosine = std::cos(20 * std::numbers::pi / 180);
@@ -119,7 +119,7 @@ class Studio {
   /// Faces that are seen from within the solid have no light of their own to lose, and what is seen
   /// through translucent ones has another.
   void collect_points() {
-    point_of_.assign(hits_.s.size(), kNone);
+    point_of_.assign(hits_.s.size(), kNoPoint);
     for (uint32_t y = 0; y < view_.height_px; ++y) {
       for (uint32_t x = 0; x < view_.width_px; ++x) {
         const size_t pixel = index(x, y);
@@ -187,10 +187,10 @@ class Studio {
   /// Returns by how much the colour of a pixel gets darker.
   double light_at(uint32_t x, uint32_t y) const {
     const size_t pixel = index(x, y);
-    if (point_of_[pixel] == kNone) return 1;
+    if (point_of_[pixel] == kNoPoint) return 1;
     Light sum;
     for_each_near(x, y, [&](size_t other) {
-      if (point_of_[other] == kNone || !are_of_one_face(pixel, other)) return;
+      if (point_of_[other] == kNoPoint || !are_of_one_face(pixel, other)) return;
       sum += sums_[point_of_[other]];
     });
     const double open = 1 - settings_.occlusion * (1 - share(sum.open_sky, sum.sky));
@@ -232,7 +232,7 @@ class Studio {
   const TraceOptions& options_;
   Image& image_;
   Hits hits_;
-  std::vector<uint32_t> point_of_;  // by pixel; kNone: it shows none that light falls on
+  std::vector<uint32_t> point_of_;  // by pixel; kNoPoint: it shows none that light falls on
   std::vector<Vec3> positions_, normals_;
   std::vector<Light> sums_;  // by point
   std::array<std::vector<uint32_t>, kGroups> groups_;

@@ -34,7 +34,7 @@ static_assert(kSurfaceSquare_px == kTileSide_px);
 static_assert(PixelBlock::kWidth_px == kPacketWidth_px);
 static_assert(PixelBlock::kHeight_px == kPacketHeight_px);
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t kNoSlot = std::numeric_limits<uint32_t>::max();
 
 /// Returns the area with its sides moved outwards to those of squares, as far as the picture goes.
 PixelArea whole_squares(const PixelArea& area, const View& view) {
@@ -65,7 +65,7 @@ struct PlacedSurface {
   float nearest_z = 0;
   ShadeSettings shade;
   uint32_t turns = 0;
-  uint32_t number = kNone;  // among those of several turns
+  uint32_t number = kNoSlot;  // among those of several turns
 
   // Made when it is first traced: most surfaces of a picture of many are hidden.
   std::once_flag is_made;
@@ -216,7 +216,7 @@ void find_depths(const PlacedSurface& placed, const PacketHits& hits,
 class SurfaceTracer::Region {
  public:
   Region(SurfaceTracer& owner, const Tile& region)
-      : owner_(owner), region_(region), slots_(owner.kept_surfaces_, kNone) {}
+      : owner_(owner), region_(region), slots_(owner.kept_surfaces_, kNoSlot) {}
 
   ~Region() {
     const std::lock_guard lock(owner_.mutex_);
@@ -227,7 +227,7 @@ class SurfaceTracer::Region {
     PlacedSurface& placed = owner_.placed_[step.surface];
     const Tile area = intersection(region_, placed.area);
     if (area.empty()) return;
-    if (placed.number != kNone) return draw_kept(step.turn, placed, area);
+    if (placed.number != kNoSlot) return draw_kept(step.turn, placed, area);
     const uint32_t asked = step.has_both ? step.turn + 1 : step.turn;
     if (owner_.sink_.wants(asked, area, placed.nearest_z)) draw(step, placed, area);
   }
@@ -249,7 +249,7 @@ class SurfaceTracer::Region {
   void trace_kept(PlacedSurface& placed, KeptSurface& kept, const Tile& area);
   KeptSurface& kept_of(const PlacedSurface& placed) {
     uint32_t& slot = slots_[placed.number];
-    if (slot == kNone) {
+    if (slot == kNoSlot) {
       slot = static_cast<uint32_t>(kept_.size());
       kept_.push_back(std::make_unique<KeptSurface>());
     }

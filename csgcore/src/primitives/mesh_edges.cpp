@@ -26,14 +26,14 @@ uint64_t key_of(uint32_t a, uint32_t b) {
 }
 
 /// One of a triangle's edges.
-struct Side {
+struct SideOfTriangle {
   uint64_t key;
   uint32_t triangle;
   bool is_forwards;  // from the lower vertex to the higher one
 };
 
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
-  std::vector<Side> sides;
+std::vector<SideOfTriangle> sorted_sides(std::span<const Triangle> triangles) {
+  std::vector<SideOfTriangle> sides;
   sides.reserve(3 * triangles.size());
   for (uint32_t i = 0; i < triangles.size(); ++i) {
     for (size_t k = 0; k < 3; ++k) {
@@ -42,16 +42,17 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
     }
   }
   stop_point();
-  tbb::parallel_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
-  });
+  tbb::parallel_sort(sides.begin(), sides.end(),
+                     [](const SideOfTriangle& a, const SideOfTriangle& b) {
+                       return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
+                     });
   stop_point();
   return sides;
 }
 
 /// Calls visit(sides) with the sides along each edge.
 template <typename Visit>
-void for_each_edge(std::span<const Side> sides, const Visit& visit) {
+void for_each_edge(std::span<const SideOfTriangle> sides, const Visit& visit) {
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].key == sides[begin].key) ++end;
     visit(sides.subspan(begin, end - begin));
@@ -77,8 +78,8 @@ bool is_balanced(std::span<const Triangle> triangles) {
 uint64_t count_open_edges(std::span<const Triangle> triangles) {
   if (is_balanced(triangles)) return 0;
   uint64_t open = 0;
-  for_each_edge(sorted_sides(triangles), [&open](std::span<const Side> sides) {
-    const auto forwards = std::ranges::count_if(sides, &Side::is_forwards);
+  for_each_edge(sorted_sides(triangles), [&open](std::span<const SideOfTriangle> sides) {
+    const auto forwards = std::ranges::count_if(sides, &SideOfTriangle::is_forwards);
     if (2 * static_cast<size_t>(forwards) != sides.size()) ++open;
   });
   return open;
@@ -99,7 +100,7 @@ void face_alike(std::span<Triangle> triangles) {
       return;
     }
   };
-  for_each_edge(sorted_sides(triangles), [&](std::span<const Side> sides) {
+  for_each_edge(sorted_sides(triangles), [&](std::span<const SideOfTriangle> sides) {
     if (sides.size() != 2) return;
     const bool alike = sides[0].is_forwards != sides[1].is_forwards;
     add(sides[0].triangle, {sides[1].triangle, alike});

@@ -59,8 +59,6 @@ Mat3 absolute(const Mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(
 /// of its offset from the primitive, and of three products.
 constexpr double kTermRounding = 8 * kEpsilon;
 
-double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
-
 /// If W is the rounded inverse of C, the computed canonical coordinates are W·C·x for the true x,
 /// and their relative error is W·C − 1. That in turn is computed as sums of three rounded products.
 double inversion_error(const CanonicalPrimitive& primitive) {

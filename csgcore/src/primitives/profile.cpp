@@ -16,7 +16,7 @@ namespace csgcore {
 namespace {
 
 using LongVec2 = glm::tvec2<long double>;
-using Piece = Profile::Piece;
+using ProfilePiece = Profile::Piece;
 
 /// See Profile::Piece. Its coordinates are those of the definition.
 struct LongPiece {
@@ -170,7 +170,7 @@ void order_by_place(std::span<LoopPieces> loops) {
 class ProfileBvhBuilder {
  public:
   /// `loop_begins`: the first piece of each loop, and the number of all pieces.
-  ProfileBvhBuilder(std::span<const Piece> pieces, std::span<const uint32_t> loop_begins)
+  ProfileBvhBuilder(std::span<const ProfilePiece> pieces, std::span<const uint32_t> loop_begins)
       : pieces_(pieces), loop_begins_(loop_begins) {
     nodes_.emplace_back();
     build_loops(0, 0, static_cast<uint32_t>(loop_begins.size()) - 1);
@@ -229,13 +229,13 @@ class ProfileBvhBuilder {
     }
   }
 
-  std::span<const Piece> pieces_;
+  std::span<const ProfilePiece> pieces_;
   std::span<const uint32_t> loop_begins_;
   std::vector<Profile::Node> nodes_;
 };
 
 /// Returns a bound of the squared distance of a piece's points from the origin.
-double furthest2(const Piece& piece) {
+double furthest2(const ProfilePiece& piece) {
   if (piece.is_line()) return glm::dot(piece.end, piece.end);
   // Between two points a curve is within the triangle of their tangents, whose size falls with the
   // square of their distance.
@@ -355,7 +355,7 @@ Vec2 Profile::support(const Vec2& direction) const {
     const double along = glm::dot(direction, point);
     if (along > furthest) furthest = along, best = point;
   };
-  for (const Piece& piece : pieces_) {
+  for (const ProfilePiece& piece : pieces_) {
     consider(piece.end);
     if (piece.is_line() || !(glm::dot(direction, piece.control) > furthest)) continue;
     const auto share = summit(glm::dot(direction, piece.control - piece.start),

@@ -23,7 +23,7 @@ constexpr uint32_t kNone = 0xFFFFFFFFu;
 using Class = uint32_t;
 
 /// Spreads a difference in any bit over all bits (the finaliser of MurmurHash3, Appleby 2011).
-constexpr uint64_t mixed(uint64_t bits) {
+constexpr uint64_t mixed_bits(uint64_t bits) {
   bits = (bits ^ bits >> 33) * 0xFF51AFD7ED558CCDu;
   bits = (bits ^ bits >> 33) * 0xC4CEB9FE1A85EC53u;
   return bits ^ bits >> 33;
@@ -38,7 +38,7 @@ uint64_t hash_of(const CanonicalPrimitive& primitive) {
     sum = kOdd * (sum + std::bit_cast<uint64_t>(number + 0.0));  // −0 equals 0
     sum ^= sum >> 32;
   }
-  return mixed(sum);
+  return mixed_bits(sum);
 }
 
 bool is_equal(const CanonicalPrimitive& a, const CanonicalPrimitive& b) {
@@ -304,7 +304,7 @@ class Merger {
       whole.own = key_.back();
     } else if (whole.may_be_shared) {
       uint64_t hash = 0;
-      for (const uint32_t part : key_) hash = mixed(hash ^ part);
+      for (const uint32_t part : key_) hash = mixed_bits(hash ^ part);
       std::vector<Known>& known = known_[hash];
       const auto same = std::ranges::find(known, key_, &Known::key);
       whole.own = same != known.end() ? same->own : next_class_++;

@@ -29,8 +29,6 @@ constexpr double kAccuracy = 0x1p-13;
 /// The accuracy stays this many times above the margin of cells, which would be too coarse else.
 constexpr double kLeastMargins = 4;
 
-double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
-
 bool is_union(const CsgTree& tree) {
   return std::ranges::all_of(tree.tokens(), [](const CsgToken& token) {
     return token.is_primitive || token.op == Op::kUnion;
@@ -38,7 +36,7 @@ bool is_union(const CsgTree& tree) {
 }
 
 /// A side of the box: the largest or the least coordinate along an axis.
-struct Side {
+struct BoxSide {
   int axis;
   bool is_upper;
 
@@ -67,7 +65,7 @@ class BoundsSearch {
       CellList list;
       if (!restrict(whole, box, list)) return {};
       for (int i = 0; i < 6; ++i) {
-        const Side side{i / 2, i % 2 == 0};
+        const BoxSide side{i / 2, i % 2 == 0};
         budget_left_after_ = budget_.tests - budget_.tests / static_cast<uint64_t>(6 - i);
         const std::optional<double> reach = find(side, list, box);
         if (!reach) return {};
@@ -94,7 +92,7 @@ class BoundsSearch {
   };
 
   /// Returns how far the solid reaches; nothing if it has no part in the box.
-  std::optional<double> find(const Side& side, const CellList& whole, const Box& box) {
+  std::optional<double> find(const BoxSide& side, const CellList& whole, const Box& box) {
     cells_.clear();
     uint32_t count = 0;
     const auto add = [&](const CellList& list, const Box& part) {
@@ -125,7 +123,7 @@ class BoundsSearch {
 
   /// Returns how far the solid certainly reaches by points of the operands that bound the box: most
   /// solids keep a corner of these, or the middle between corners.
-  double reach_of_operands(const Side& side, const CellList& list, const Box& box) const {
+  double reach_of_operands(const BoxSide& side, const CellList& list, const Box& box) const {
     constexpr uint32_t kMostAsked = 64;
     constexpr uint32_t kMostTests = 1 << 14;  // of all points: to ask for one may take them all
     constexpr double kTilt = 1e-3;     // finds the corners of a face that lies in the box's side
@@ -166,7 +164,7 @@ class BoundsSearch {
   }
 
   /// Returns whether the cell still may hold a part of the solid.
-  bool contract(const Side& side, Cell& cell) {
+  bool contract(const BoxSide& side, Cell& cell) {
     cell.middle = cell.tip = cell.box.center();
     cell.tip[side.axis] = side.coordinate(cell.box);
     if (cell.list.is_constant() || cell.list.count() > Contractor::kMostTests) return true;
@@ -196,7 +194,7 @@ class BoundsSearch {
 
   /// Returns how far the solid certainly reaches in the cell, if a point next to its tip lies in
   /// it.
-  double reach_of_point(const Side& side, const Cell& cell) const {
+  double reach_of_point(const BoxSide& side, const Cell& cell) const {
     const double height = cell.reach - side.reach(cell.middle[side.axis]);
     const double depth = 0.5 * std::min(height, accuracy_);
     const Vec3 point = cell.tip + (depth / height) * (cell.middle - cell.tip);
@@ -217,7 +215,7 @@ class BoundsSearch {
 
   /// Returns the axis along which most surfaces follow one another, since dividing a cell along a
   /// prism's axis leads to nothing; of equal ones the longest. Nothing if the cell is too small.
-  std::optional<int> axis_of_division(const Side& side, const Cell& cell) {
+  std::optional<int> axis_of_division(const BoxSide& side, const Cell& cell) {
     constexpr uint32_t kMostTests = 64;    // with more of them any division leads on
     constexpr double kThickness = 0x1p-6;  // of the rods along the axes that are tried, as a share
     // The cell's part that reaches farthest comes next, so that it is divided off as flat as this

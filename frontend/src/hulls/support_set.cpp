@@ -22,7 +22,7 @@ using csgcore::Vec3;
 using Kind = ProfileEdge::Kind;
 
 /// Directions and lengths in a figure differ by so much through rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kSupportRounding = 1e-12;
 
 /// An edge of a loop with its start.
 struct Edge {
@@ -59,7 +59,7 @@ std::vector<Edge> edges_of(const ProfileLoop& loop) {
 
 /// Whether the disc of an arc lies in the convex figure: no edge cuts into it.
 bool holds_disc(const std::vector<Edge>& edges, const Vec2& center, double radius) {
-  const double slack = kRounding * radius;
+  const double slack = kSupportRounding * radius;
   return std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) {
     if (!edge.is_arc()) {
       const Vec2 side = edge.edge.end - edge.start;
@@ -107,10 +107,10 @@ bool is_whole_circle(const std::vector<Edge>& edges, const Vec2& center, double 
   double sum = 0;
   for (const Edge& edge : edges) {
     if (!edge.is_arc() || edge.edge.control != center) continue;
-    if (std::abs(edge.radius() - radius) > kRounding * radius) continue;
+    if (std::abs(edge.radius() - radius) > kSupportRounding * radius) continue;
     sum += edge.edge.is_counterclockwise ? edge.sweep() : kTurn - edge.sweep();
   }
-  return sum >= kTurn * (1 - kRounding);
+  return sum >= kTurn * (1 - kSupportRounding);
 }
 
 /// Returns whether points stand for curves.
@@ -234,7 +234,7 @@ bool is_convex_loop(const ProfileLoop& loop) {
     }
     const Vec2 before = edge.arrives(), after = edges[(i + 1) % edges.size()].leaves();
     const double turn = std::atan2(cross(before, after), glm::dot(before, after));
-    if (turn < -kRounding) return false;
+    if (turn < -kSupportRounding) return false;
     turned += turn;
   }
   constexpr double kOnce = 1.5;  // the next whole number of turns is 2

@@ -29,12 +29,6 @@ double sweep_of(const Vec2& start, const ProfileEdge& arc) {
   return angle;
 }
 
-Vec2 turned(const Vec2& v, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
-
 /// How many chords curves get.
 struct CurveChords {
   Chords of_arcs;

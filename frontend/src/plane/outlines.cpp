@@ -15,7 +15,7 @@ using csgcore::FillRule;
 using csgcore::Op;
 
 /// The library computes with 64 bits up to 2^30, and slower, with 128, up to 2^62.
-constexpr int kGridBits = 29;
+constexpr int kClipperBits = 29;
 constexpr int kMostGridBits = 60;
 /// The grid is at least as fine as 2^-20, whatever the size, as long as the library has the bits:
 /// designs subtract small parts from very large squares.
@@ -24,7 +24,7 @@ constexpr int kLeastExponent = 20;
 int grid_exponent(double reach) {
   if (!(reach > 0)) return 0;
   const int reach_exponent = std::ilogb(reach) + 1;
-  return std::min(std::max(kGridBits - reach_exponent, kLeastExponent),
+  return std::min(std::max(kClipperBits - reach_exponent, kLeastExponent),
                   kMostGridBits - reach_exponent);
 }
 

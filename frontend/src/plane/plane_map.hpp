@@ -15,6 +15,13 @@ using csgcore::Vec2;
 /// Returns the point seen along z.
 inline Vec2 plan_of(const csgcore::Vec3& point) { return {point.x, point.y}; }
 
+/// Returns the vector turned counterclockwise by an angle in radians.
+inline Vec2 turned(const Vec2& v, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
 /// The affine map x ↦ linear·x + translation.
 struct PlaneMap {
   glm::dmat2 linear{1.0};

@@ -20,7 +20,7 @@ using csgcore::Vec3;
 /// events at one place. Coordinates are −1 to 1 here, as below.
 constexpr double kSameNode = 1e-11;
 /// So far from its plane may a node be.
-constexpr double kFlat = 1e-10;
+constexpr double kRoofRounding = 1e-10;
 
 /// The outline moved and scaled so that coordinates are −1 to 1.
 struct UnitFrame {
@@ -89,21 +89,21 @@ bool is_sound(const RoofEdge& edge, std::span<const FaceSide> sides,
   double twice_area = 0;
   for (const FaceSide& side : sides) {
     const RoofNode& from = nodes[side.from];
-    if (!(std::abs(edge.ahead(from.place, from.time)) <= kFlat)) return false;
+    if (!(std::abs(edge.ahead(from.place, from.time)) <= kRoofRounding)) return false;
     along.push_back(glm::dot(from.place - edge.start, edge.direction));
     twice_area += cross(from.place - edge.start, nodes[side.to].place - edge.start);
   }
-  if (twice_area < -kFlat) return false;
+  if (twice_area < -kRoofRounding) return false;
   std::rotate(along.begin(), std::min_element(along.begin(), along.end()), along.end());
   const auto top = std::max_element(along.begin(), along.end());
   double most = along.front();
   for (auto i = along.begin(); i != top; ++i) {
-    if (*i < most - kFlat) return false;
+    if (*i < most - kRoofRounding) return false;
     most = std::max(most, *i);
   }
   double least = *top;
   for (auto i = top; i != along.end(); ++i) {
-    if (*i > least + kFlat) return false;
+    if (*i > least + kRoofRounding) return false;
     least = std::min(least, *i);
   }
   return true;

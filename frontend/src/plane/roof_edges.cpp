@@ -92,11 +92,6 @@ void jitter_corners(const std::vector<OutlineEdge>& edges, double jitter,
   }
 }
 
-Vec2 turned(const Vec2& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
-
 }  // namespace
 
 Vec2 corner_velocity(const Vec2& before, const Vec2& after) {

@@ -39,7 +39,7 @@ std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, std::span<const
 }
 
 /// An operation on the way from the root to a leaf.
-struct OpenOperation {
+struct OperationAround {
   Op op;
   bool is_subtracted;
   uint32_t operands_left;  // the last operand comes first
@@ -72,12 +72,12 @@ void visit_uses(std::span<const CsgToken> tokens, std::span<const Box> subtree,
                 const Visit& visit) {
   const Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
                        Vec3(std::numeric_limits<double>::infinity())};
-  std::vector<OpenOperation> open;
+  std::vector<OperationAround> open;
   for (size_t i = tokens.size(); i-- > 0;) {
     bool is_subtracted = false;
     Box context = everywhere;
     if (!open.empty()) {
-      const OpenOperation& parent = open.back();
+      const OperationAround& parent = open.back();
       const bool is_later = parent.op == Op::kDifference && parent.operands_left > 1;
       is_subtracted = parent.is_subtracted != is_later;
       context = parent.context;
