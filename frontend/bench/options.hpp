@@ -24,7 +24,6 @@ struct Options {
   frontend::ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
   frontend::Evaluator evaluator = frontend::kDefaultEvaluator;
-  language::LanguageVersion language{};
   Settings settings;
   bool json = false;
   bool quiet = false;

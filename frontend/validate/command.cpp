@@ -63,7 +63,6 @@ class Run {
     reading.import = options_.import;
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
-    reading.language = options_.language;
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) say(line);
     };

@@ -93,7 +93,7 @@ Options parse_options(const std::vector<std::string>& words) {
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
   options.evaluator =
       frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);
-  options.language = frontend::read_language(arguments);
+  options.import.language = frontend::read_language(arguments);
   return options;
 }
 

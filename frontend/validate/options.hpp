@@ -23,7 +23,6 @@ struct Options {
   frontend::ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
   frontend::Evaluator evaluator = frontend::kDefaultEvaluator;
-  language::LanguageVersion language{};
   Settings settings;
   unsigned threads = 0;  // 0: as many as the machine has
   bool quiet = false;

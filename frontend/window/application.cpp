@@ -68,7 +68,6 @@ frontend::FollowOptions follow_options(const frontend::Options& options) {
   frontend::FollowOptions result;
   result.openscad_arguments = options.openscad_arguments;
   result.evaluator = options.evaluator;
-  result.language = options.language;
   result.import = options.import;
   result.import.keeps_places = true;
   result.import.keeps_meshes = true;  // edges may be switched on at any time
@@ -414,7 +413,7 @@ bool Application::play() {
 void Application::update_inputs() {
   if (!state_.shows_animation) state_.animation.stop();
   frontend::DesignInputs wanted{state_.customizer.inputs(), std::nullopt, std::nullopt};
-  if (state_.language != options_.language) wanted.language = state_.language;
+  if (state_.language != options_.import.language) wanted.language = state_.language;
   if (state_.animation.frame() > 0) wanted.time = state_.animation.time();
   if (wanted == inputs_) return;
   inputs_ = std::move(wanted);

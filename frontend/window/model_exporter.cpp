@@ -96,7 +96,7 @@ void ModelExporter::make(const ModelOrder& order, const std::stop_token& stop,
   reading.import.tolerance = options.model_tolerance;
   reading.openscad_arguments = options.openscad_arguments;
   reading.evaluator = options.evaluator;
-  reading.language = order.inputs.language.value_or(options.language);
+  reading.import.language = order.inputs.language.value_or(options.import.language);
   reading.inputs = order.inputs;
   reading.camera = language::CameraChoice::kWindow;
   reading.text = order.stream;

@@ -119,7 +119,7 @@ State::State(const frontend::Options& options)
       look(options.render),
       overlays(options.overlays),
       customizer(options.input, options.openscad_arguments),
-      language(options.language),
+      language(options.import.language),
       name(options.input) {}
 
 void State::begin(const frontend::Options& options) {

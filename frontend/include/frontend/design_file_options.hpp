@@ -25,9 +25,6 @@ enum class Evaluator : uint8_t {
 /// What the command has a design evaluated by unless --evaluator says otherwise.
 constexpr Evaluator kDefaultEvaluator = Evaluator::kOwn;
 
-/// The version of the language unless --language or the environment says otherwise.
-constexpr language::LanguageVersion kDefaultLanguage = language::LanguageVersion::k2021;
-
 /// What a .scad is evaluated with, besides its files and OpenSCAD's options.
 struct DesignInputs {
   /// In place of the parameter set that -p and -P name.
@@ -54,7 +51,6 @@ struct DesignFileOptions {
   ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
-  language::LanguageVersion language{};  // of the own evaluator
   DesignInputs inputs;
   language::CameraChoice camera{};
   language::ViewCamera view{};  // of the command line

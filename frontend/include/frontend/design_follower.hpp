@@ -20,7 +20,6 @@ namespace frontend {
 struct FollowOptions {
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
-  language::LanguageVersion language{};  // of the own evaluator
   ImportOptions import;
   /// Look at the files at intervals only, as if the system could not watch them. By default only
   /// those are looked at that the system cannot watch: missing files, and files on file systems

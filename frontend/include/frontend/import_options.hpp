@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "csgcore/primitive.hpp"
+#include "language/language_version.hpp"
 
 namespace frontend {
 
@@ -25,8 +26,8 @@ enum class Facets : uint8_t {
 /// Which of OpenSCAD's pictures the design is imported for.
 enum class PictureKind : uint8_t {
   kPreview,
-  /// --render, OpenSCAD's F6: the solid alone. No color() counts, `#` parts are like others, and
-  /// `%` parts are left out.
+  /// --render, OpenSCAD's F6: the solid alone. No color() counts (GeometryDialect::keeps_colors),
+  /// `#` parts are like others, and `%` parts are left out.
   kRendered,
   /// --preview=throwntogether: every leaf whole, and no operation.
   kThrownTogether,
@@ -35,7 +36,13 @@ enum class PictureKind : uint8_t {
 /// The colour that the thrown-together picture gives to faces that are seen from within.
 constexpr csgcore::Color kSeenFromWithin{1, 0, 1, 1};
 
+/// The version of the language unless --language or the environment says otherwise.
+constexpr language::LanguageVersion kDefaultLanguage = language::LanguageVersion::k2021;
+
 struct ImportOptions {
+  /// Whose language a design is evaluated in by the own evaluator, and whose rules its tree is
+  /// drawn by (GeometryDialect).
+  language::LanguageVersion language = language::LanguageVersion::k2021;
   /// The folder that the files which a design names are in, unless their paths are absolute. Empty:
   /// the working folder.
   std::string folder{};

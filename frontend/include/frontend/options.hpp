@@ -57,7 +57,6 @@ struct Options {
   std::vector<ModelOutput> models;  // written before the pictures
   double model_tolerance = 0;       // ImportOptions::tolerance of the models
   Evaluator evaluator = kDefaultEvaluator;
-  language::LanguageVersion language{};
   std::string stats_path;  // empty: none; "-": standard output
   std::string editor;      // --editor; empty: the environment tells it
   bool pans_far = false;   // --pan: in the window, as far as OpenSCAD

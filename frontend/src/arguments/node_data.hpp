@@ -48,6 +48,7 @@ struct LinearExtrudeArguments {
   std::optional<double> slices{};  // ≥ 1
   std::optional<double> segments{};
   csgcore::FacetSettings facets;
+  bool cuts_edges = false;  // GeometryDialect::cuts_twisted_edges
 };
 struct RotateExtrudeArguments {
   double angle = 360;  // from −360 to 360, the former exclusive; 0: nothing

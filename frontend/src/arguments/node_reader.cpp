@@ -1,5 +1,6 @@
 #include "arguments/node_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -66,7 +67,8 @@ bool NodeReader::center(const ArgumentValue& value) {
 csgcore::FacetSettings NodeReader::facets() const {
   const csgcore::FacetSettings defaults;
   return {number("$fn").value_or(defaults.fn), number("$fa").value_or(defaults.fa),
-          number("$fs").value_or(defaults.fs)};
+          number("$fs").value_or(defaults.fs),
+          std::max(number("$fe").value_or(defaults.tolerance), defaults.tolerance)};
 }
 
 void NodeReader::tell_wrong(std::string_view argument, const std::string& found,

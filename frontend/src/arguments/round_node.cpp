@@ -8,16 +8,31 @@ namespace frontend {
 namespace {
 
 /// What a round primitive's arguments may be called.
-enum RoundArgument : uint8_t { kR, kR1, kR2, kD, kD1, kD2, kH, kFn, kFa, kFs, kCount, kCenter };
+enum RoundArgument : uint8_t {
+  kR,
+  kR1,
+  kR2,
+  kD,
+  kD1,
+  kD2,
+  kH,
+  kFn,
+  kFa,
+  kFs,
+  kFe,
+  kCount,
+  kCenter
+};
 
 struct RoundName {
   language::ArgumentName name;
   RoundArgument argument;
 };
 // In the order in which OpenSCAD writes them: the search ends soonest.
-constexpr std::array<RoundName, 11> kRoundNames{{{"$fn", kFn},
+constexpr std::array<RoundName, 12> kRoundNames{{{"$fn", kFn},
                                                  {"$fa", kFa},
                                                  {"$fs", kFs},
+                                                 {"$fe", kFe},
                                                  {"h", kH},
                                                  {"r1", kR1},
                                                  {"r2", kR2},
@@ -91,7 +106,8 @@ csgcore::Primitive cylinder_of(const RoundArguments& arguments) {
 csgcore::FacetSettings facets_of(const RoundArguments& arguments) {
   const csgcore::FacetSettings defaults;
   return {arguments.get(kFn, defaults.fn), arguments.get(kFa, defaults.fa),
-          arguments.get(kFs, defaults.fs)};
+          arguments.get(kFs, defaults.fs),
+          std::max(arguments.get(kFe, defaults.tolerance), defaults.tolerance)};
 }
 
 }  // namespace

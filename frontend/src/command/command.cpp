@@ -147,7 +147,6 @@ class Run {
     reading.import.measures_leaves = sees_all(options_.camera);
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
-    reading.language = options_.language;
     reading.camera = camera_choice(options_);
     reading.view = view_of(options_);
     reading.text = text_;

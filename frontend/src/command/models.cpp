@@ -68,7 +68,6 @@ class ModelRun {
     reading.import.tolerance = options_.model_tolerance;
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
-    reading.language = options_.language;
     reading.view = view_of(options_);
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame);

@@ -395,7 +395,7 @@ Options parse_options(const std::vector<std::string>& words) {
   leave_out_crosshairs(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
   options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
-  options.language = read_language(arguments);
+  options.import.language = read_language(arguments);
   options.has_hard_warnings = arguments.has("hardwarnings");
   warn_of_what_is_ignored(arguments, options);
   return options;

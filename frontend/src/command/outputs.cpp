@@ -86,7 +86,7 @@ class TextRun {
     if (!known || (wants_openscad && kind_of(options_.input) != DesignKind::kImported)) {
       return write_by_openscad(options_, output_, text_);
     }
-    known->language = options_.language;
+    known->language = options_.import.language;
     known->camera = camera_choice(options_);
     known->view = view_of(options_);
     known->is_preview = options_.import.picture != PictureKind::kRendered;
@@ -115,8 +115,8 @@ class TextRun {
 
   std::string parameters_of(const language::Evaluation& evaluation) const {
     const language::SourceFiles& files = *evaluation.files;
-    const auto parameters =
-        language::customizer_parameters(files[files.order().front()].text, options_.language);
+    const auto parameters = language::customizer_parameters(files[files.order().front()].text,
+                                                            options_.import.language);
     return language::parameters_text(
         parameters.value_or(std::vector<language::CustomizerParameter>{}),
         std::filesystem::path(options_.input).stem().string());

@@ -209,14 +209,13 @@ class DesignFollower::Follower {
     options.import.solids = solids_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
-    options.language = options_.language;
     options.camera = language::CameraChoice::kWindow;
     options.cache = cache_;
     options.progress = [this](const char* stage) { activity_.update(stage); };
     {
       const std::lock_guard lock(mutex_);
       options.inputs = inputs_;
-      options.language = inputs_.language.value_or(options.language);
+      options.import.language = inputs_.language.value_or(options.import.language);
     }
     return options;
   }

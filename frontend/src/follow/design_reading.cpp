@@ -125,7 +125,7 @@ DesignReading read_anew(const std::string& path, const DesignFileOptions& option
   reading.good = before;
   reading.version.inputs = options.inputs;
   report_failures(path, reading, [&] { read_into(reading, path, options, stop); });
-  report_failures(path, reading, [&] { find_parameters(reading, path, options.language); });
+  report_failures(path, reading, [&] { find_parameters(reading, path, options.import.language); });
   reading.version.stream = reading.good.stream;
   return reading;
 }

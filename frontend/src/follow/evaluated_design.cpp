@@ -131,7 +131,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   std::optional<language::EvaluationOptions> known =
       evaluation_options(options.openscad_arguments, path);
   if (!known) return nullptr;
-  known->language = options.language;
+  known->language = options.import.language;
   known->parameters = options.inputs.parameters;
   known->time = options.inputs.time.value_or(0);
   known->camera = options.camera;

@@ -23,7 +23,8 @@ DrawnText DesignFonts::letters(const TextSettings& text, int pieces) {
     result.problem = DrawnText::Problem::kNoFont;
     return result;
   }
-  const TextRun run = run_of(stock->libraries(), stock->within_limits(text.letters));
+  TextRun run = run_of(stock->libraries(), stock->within_limits(text.letters));
+  if (text.has_features) run.features = font.features;
   result.glyphs = lay_out(text, run, *font.face, pieces);
   return result;
 }

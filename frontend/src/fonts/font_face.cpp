@@ -250,7 +250,7 @@ void FontFace::shape_part(const TextRun& run, size_t begin, size_t end,
   hb.buffer_set_direction(buffer.get(), run.direction);
   hb.buffer_set_script(buffer.get(), run.script);
   hb.buffer_set_language(buffer.get(), run.language);
-  hb.shape(font_, buffer.get(), nullptr, 0);
+  hb.shape(font_, buffer.get(), run.features.data(), static_cast<unsigned>(run.features.size()));
   unsigned count = 0;
   const hb_glyph_info_t* infos = hb.buffer_get_glyph_infos(buffer.get(), &count);
   const hb_glyph_position_t* positions = hb.buffer_get_glyph_positions(buffer.get(), &count);

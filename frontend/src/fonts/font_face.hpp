@@ -28,6 +28,7 @@ struct TextRun {
   hb_direction_t direction = HB_DIRECTION_LTR;
   hb_script_t script = HB_SCRIPT_UNKNOWN;
   hb_language_t language = nullptr;
+  std::vector<hb_feature_t> features{};  // OpenType's, beside those that are usual
 
   bool is_vertical() const { return HB_DIRECTION_IS_VERTICAL(direction); }
 };

@@ -57,6 +57,7 @@ bool load(FontLibraries::HarfBuzz& harfbuzz) {
   library.find("hb_script_get_horizontal_direction", harfbuzz.script_get_horizontal_direction);
   library.find("hb_direction_from_string", harfbuzz.direction_from_string);
   library.find("hb_language_from_string", harfbuzz.language_from_string);
+  library.find("hb_feature_from_string", harfbuzz.feature_from_string);
   return library.is_complete();
 }
 

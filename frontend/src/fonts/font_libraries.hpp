@@ -44,6 +44,7 @@ struct FontLibraries {
     decltype(&hb_script_get_horizontal_direction) script_get_horizontal_direction;
     decltype(&hb_direction_from_string) direction_from_string;
     decltype(&hb_language_from_string) language_from_string;
+    decltype(&hb_feature_from_string) feature_from_string;
   } harfbuzz;
   struct Fontconfig {
     decltype(&FcInitLoadConfigAndFonts) init_load_config_and_fonts;

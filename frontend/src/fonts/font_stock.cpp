@@ -164,6 +164,20 @@ TextLetters FontStock::within_limits(TextLetters letters) {
   return letters;
 }
 
+std::vector<hb_feature_t> FontStock::features_of(const char* text) const {
+  std::vector<hb_feature_t> features;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view word = rest.substr(0, rest.find_first_of(",;"));
+    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+    hb_feature_t feature;
+    if (libraries_.harfbuzz.feature_from_string(word.data(), static_cast<int>(word.size()),
+                                                &feature) != 0) {
+      features.push_back(feature);
+    }
+  }
+  return features;
+}
+
 FoundFont FontStock::match(const std::string& pattern) {
   const FontLibraries::Fontconfig& fc = libraries_.fontconfig;
   FoundFont result;
@@ -173,6 +187,10 @@ FoundFont FontStock::match(const std::string& pattern) {
   if (asked.get() == nullptr) return result;
   const std::vector<std::string> families =
       pattern.empty() ? std::vector<std::string>{} : asked.families();
+  for (int i = 0; const char* text = asked.string(FC_FONT_FEATURES, i); ++i) {
+    const std::vector<hb_feature_t> more = features_of(text);
+    result.features.insert(result.features.end(), more.begin(), more.end());
+  }
   fc.pattern_add_bool(asked.get(), FC_OUTLINE, FcTrue);
   fc.pattern_add_bool(asked.get(), FC_SCALABLE, FcTrue);
   fc.config_substitute(config_, asked.get(), FcMatchPattern);

@@ -20,7 +20,8 @@ namespace frontend {
 struct FoundFont {
   std::shared_ptr<FontFace> face;  // null: there is none, or it cannot be opened
   std::string family;
-  std::string missing_family;  // the family that was asked for, if the font is of another
+  std::string missing_family;            // the family that was asked for, if the font is of another
+  std::vector<hb_feature_t> features{};  // OpenType's, which the name asks for
 };
 
 /// All but lock() and instance() are to be called while the lock is held.
@@ -68,6 +69,7 @@ class FontStock {
 
   void load_list();
   FoundFont match(const std::string& pattern);
+  std::vector<hb_feature_t> features_of(const char* text) const;
   std::shared_ptr<FontFace> open(const std::string& path, int index);
 
   const FontLibraries& libraries_;

@@ -38,6 +38,7 @@ Measures measures_of(const std::vector<ShapedGlyph>& glyphs, const TextSettings&
 
 double aligned_x(HorizontalAlign align, const Measures& measures) {
   switch (align) {
+    case HorizontalAlign::kDefault:
     case HorizontalAlign::kLeft:
       return 0;
     case HorizontalAlign::kCenter:
@@ -50,6 +51,7 @@ double aligned_x(HorizontalAlign align, const Measures& measures) {
 
 double aligned_y(VerticalAlign align, const Measures& measures) {
   switch (align) {
+    case VerticalAlign::kDefault:
     case VerticalAlign::kBaseline:
       return 0;
     case VerticalAlign::kTop:
@@ -66,19 +68,56 @@ bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y);
 
 }  // namespace
 
+MeasuredText::MeasuredText(const std::vector<ShapedGlyph>& glyphs, double spacing, bool is_vertical,
+                           FontFace& font)
+    : is_vertical_(is_vertical) {
+  for (const ShapedGlyph& glyph : glyphs) {
+    const Rectangle& box = font.pixel_box(glyph.index);
+    if (!box.empty()) {
+      ascent_ = is_empty_ ? box.max.y : std::max(ascent_, box.max.y);
+      descent_ = is_empty_ ? box.min.y : std::min(descent_, box.min.y);
+      is_empty_ = false;
+      box_.merge(box.min + advance_ + glyph.offset);
+      box_.merge(box.max + advance_ + glyph.offset);
+    }
+    advance_ += spacing * glyph.advance;
+  }
+}
+
+Vec2 MeasuredText::offset(HorizontalAlign halign, VerticalAlign valign) const {
+  Vec2 offset(0.0);
+  if (is_vertical_) {
+    if (halign == HorizontalAlign::kLeft && !is_empty_) offset.x = -box_.min.x;
+    if (halign == HorizontalAlign::kRight && !is_empty_) offset.x = -box_.max.x;
+    if (valign == VerticalAlign::kCenter) offset.y = -advance_.y / 2;
+    if (valign == VerticalAlign::kBottom) offset.y = -advance_.y;
+    return offset;
+  }
+  if (halign == HorizontalAlign::kCenter) offset.x = -advance_.x / 2;
+  if (halign == HorizontalAlign::kRight) offset.x = -advance_.x;
+  if (valign == VerticalAlign::kCenter) offset.y = -(ascent_ + descent_) / 2;
+  if (valign == VerticalAlign::kTop) offset.y = -ascent_;
+  if (valign == VerticalAlign::kBottom) offset.y = -descent_;
+  return offset;
+}
+
 std::vector<PlacedGlyph> lay_out(const TextSettings& text, const TextRun& run, FontFace& font,
                                  int pieces) {
   std::vector<PlacedGlyph> result;
   if (!std::isfinite(text.size) || text.size == 0) return result;
   const std::vector<ShapedGlyph> glyphs = font.shape(run);
   Vec2 at(0.0);
-  if (text.halign != HorizontalAlign::kLeft || text.valign != VerticalAlign::kBaseline) {
+  const double units = text.is_placed_exactly ? kOutlineUnits : kAdvanceUnits;
+  if (text.is_placed_exactly) {
+    const MeasuredText measured(glyphs, text.spacing, run.is_vertical(), font);
+    at = measured.offset(text.halign, text.valign);
+  } else {
     const Measures measures = measures_of(glyphs, text, run.is_vertical(), font);
     at = {aligned_x(text.halign, measures), aligned_y(text.valign, measures)};
   }
   for (const ShapedGlyph& glyph : glyphs) {
     const GlyphShape& shape = font.shape_of_glyph(glyph.index, pieces);
-    const Vec2 place = text.size / kAdvanceUnits * (at + glyph.offset);
+    const Vec2 place = text.size / units * (at + glyph.offset);
     if (shape.figure && is_finite(place)) {
       result.push_back({shape, {glm::dmat2(text.size / kOutlineUnits), place}});
     }

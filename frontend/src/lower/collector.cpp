@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
+#include "base/geometry_dialect.hpp"
 #include "base/primitive_traits.hpp"
 #include "frontend/stop.hpp"
 #include "hulls/point_hull.hpp"
@@ -129,6 +130,7 @@ Collector::Collector(const DesignTree& tree, const ImportOptions& options)
       fonts(options.font_files),
       tree_(*tree.nodes),
       options_(options),
+      keeps_colors_(GeometryDialect(options.language).keeps_colors),
       solids_(options.solids ? options.solids : std::make_shared<SolidPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
 }
@@ -261,7 +263,8 @@ void Collector::enter_matrix(uint32_t node) {
 void Collector::enter_color(uint32_t node) {
   NodeReader reader(tree_, tree_.nodes[node], problems);
   const auto color = std::get<NodeColor>(read_node(reader, {options_, fonts}));
-  if (options_.picture == PictureKind::kRendered && !options_.keeps_colors) return;
+  const bool is_rendered = options_.picture == PictureKind::kRendered;
+  if (is_rendered && !keeps_colors_ && !options_.keeps_colors) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
   Context context = contexts_.back();
@@ -406,7 +409,7 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
       }
       return kNoPrimitive;
   }
-  primitive.color = context.in_leaf ? context.leaf_color : context.color;
+  primitive.color = context.in_leaf && !keeps_colors_ ? context.leaf_color : context.color;
   boxes.push_back(box);
   fragments.push_back(count);
   frame_of.push_back(frame);
@@ -617,6 +620,7 @@ Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context,
   leaf.is_plate = lowered.is_plate;
   leaf.is_faceted = lowered.is_faceted;
   // OpenSCAD's final render resizes a solid with the marks of its cut faces.
+  leaf.has_operations = lowered.has_operations;
   leaf.keeps_operations = options_.picture == PictureKind::kRendered && lowered.has_operations;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {

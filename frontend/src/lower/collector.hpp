@@ -74,7 +74,9 @@ class Collector {
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
     uint8_t inner_modifiers = 0;              // of a part inside of another one (InnerPart)
-    /// Its operations count as those of the tree around it, which tells cut faces from others.
+    /// Its operations are those of nodes of solids, which cut faces.
+    bool has_operations = false;
+    /// They count as those of the tree around it, which tells cut faces from others.
     bool keeps_operations = false;
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
@@ -140,6 +142,7 @@ class Collector {
 
   const NodeTree& tree_;
   const ImportOptions& options_;
+  const bool keeps_colors_;  // GeometryDialect::keeps_colors
   std::vector<Context> contexts_;
   /// By node, and behind the last one: how many primitive nodes stand before it.
   std::vector<uint32_t> ids_;

@@ -17,8 +17,8 @@ using csgcore::Scene;
 
 class Composer {
  public:
-  Composer(const Leaves& leaves, std::span<const Box> boxes, Scene& scene)
-      : leaves_(leaves), boxes_(boxes), scene_(scene) {}
+  Composer(const Leaves& leaves, std::span<const Box> boxes, bool has_marked_faces, Scene& scene)
+      : leaves_(leaves), boxes_(boxes), has_marked_faces_(has_marked_faces), scene_(scene) {}
 
   /// OpenSCAD's preview and its final render.
   void compose_preview(Design& design, PictureKind picture) {
@@ -91,9 +91,15 @@ class Composer {
  private:
   bool is_opaque_leaf(uint32_t leaf, Layer::Kind kind) const {
     if (kind == Layer::Kind::kHighlight) return false;
-    const std::optional<csgcore::Color>& color =
-        scene_.primitives[leaves_.first_primitive(leaf)].color;
-    return color ? color->a == 1 : kind == Layer::Kind::kModel;
+    const auto is_opaque = [&](uint32_t primitive) {
+      const std::optional<csgcore::Color>& color = scene_.primitives[primitive].color;
+      return color ? color->a == 1 : kind == Layer::Kind::kModel;
+    };
+    if (!leaves_.is_compound(leaf)) return is_opaque(leaf);
+    const auto tokens = leaves_.solid(leaf).tokens();
+    return std::ranges::all_of(tokens, [&](const csgcore::CsgToken& token) {
+      return !token.is_primitive || is_opaque(token.value);
+    });
   }
 
   bool has_translucent(const LeafTree& tree) const {
@@ -135,8 +141,9 @@ class Composer {
 
   void set_cut_faces(const LeafUse& use) {
     const auto set = [&](uint32_t primitive) {
-      scene_.primitives[primitive].cut_faces =
-          use.is_subtracted ? CutFaces::kAlways : CutFaces::kNever;
+      CutFaces& cut_faces = scene_.primitives[primitive].cut_faces;
+      if (has_marked_faces_ && cut_faces == CutFaces::kAlways) return;
+      cut_faces = use.is_subtracted ? CutFaces::kAlways : CutFaces::kNever;
     };
     if (!leaves_.is_compound(use.leaf)) return set(use.leaf);
     for (const csgcore::CsgToken& token : leaves_.solid(use.leaf).tokens()) {
@@ -177,21 +184,62 @@ class Composer {
 
   const Leaves& leaves_;
   std::span<const Box> boxes_;
+  const bool has_marked_faces_;
   Scene& scene_;
   bool has_all_layers_ = true;
   /// Plates that are subtracted, which are thicker as such than as what is drawn over them.
   std::unordered_set<uint32_t> hidden_;
 };
 
+/// Returns the box around those of a tree's products. That of a product is the intersection of
+/// the boxes of its operands but for those that are subtracted.
+Box box_of_products(const LeafTree& tree, std::span<const Box> boxes) {
+  constexpr size_t kMostBoxes = 1024;      // of an operand: if it has more products, theirs is one
+  std::vector<std::vector<Box>> operands;  // that no operation has taken: their products' boxes
+  const auto intersect = [](const std::vector<Box>& a, const std::vector<Box>& b) {
+    std::vector<Box> both;
+    for (const Box& left : a) {
+      for (const Box& right : b) {
+        const Box box = csgcore::intersection(left, right);
+        if (!box.empty()) both.push_back(box);
+      }
+    }
+    return both;
+  };
+  for (const csgcore::CsgToken& token : tree.tokens()) {
+    if (token.is_primitive) {
+      operands.push_back({boxes[token.value]});
+      continue;
+    }
+    const auto first = operands.end() - token.value;
+    for (auto operand = first + 1; operand != operands.end(); ++operand) {
+      if (token.op == csgcore::Op::kUnion) {
+        first->insert(first->end(), operand->begin(), operand->end());
+      } else if (token.op == csgcore::Op::kIntersection) {
+        *first = intersect(*first, *operand);
+      }
+      if (first->size() > kMostBoxes) *first = {box_around(*first)};
+    }
+    operands.erase(first + 1, operands.end());
+  }
+  return operands.empty() ? Box() : box_around(operands.front());
+}
+
 }  // namespace
+
+Box box_around(std::span<const Box> boxes) {
+  Box result;
+  for (const Box& box : boxes) result.merge(box);
+  return result;
+}
 
 bool Design::is_highlighted(uint32_t leaf) const {
   return std::binary_search(highlighted_leaves.begin(), highlighted_leaves.end(), leaf);
 }
 
 bool compose(Design design, const Leaves& leaves, std::span<const Box> boxes, PictureKind picture,
-             Scene& scene) {
-  Composer composer(leaves, boxes, scene);
+             bool has_marked_faces, Scene& scene) {
+  Composer composer(leaves, boxes, has_marked_faces, scene);
   composer.set_leaves(picture);
   if (picture == PictureKind::kThrownTogether) {
     composer.compose_thrown_together(design);
@@ -201,9 +249,12 @@ bool compose(Design design, const Leaves& leaves, std::span<const Box> boxes, Pi
   return composer.has_all_layers();
 }
 
-Box view_box(const Design& design, std::span<const Box> boxes) {
+Box view_box(const Design& design, std::span<const Box> boxes, bool intersects_boxes) {
   Box result;
-  const auto add = [&](const LeafTree& tree) { result.merge(box_of_positive_leaves(tree, boxes)); };
+  const auto add = [&](const LeafTree& tree) {
+    result.merge(intersects_boxes ? box_of_products(tree, boxes)
+                                  : box_of_positive_leaves(tree, boxes));
+  };
   add(design.model);
   for (const LeafTree& part : design.background) add(part);
   for (const LeafTree& part : design.highlight) add(part);

@@ -2,6 +2,7 @@
 // the box that --viewall looks at.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -21,13 +22,18 @@ struct Design {
   bool is_highlighted(uint32_t leaf) const;
 };
 
-/// Sets the scene's trees, and the cut faces of its primitives, which are there already. `boxes`
-/// holds the boxes of all leaves. Returns whether all translucent parts have the layers that
-/// OpenSCAD gives them: a design with too many has fewer (products.hpp).
+/// Returns the smallest box that holds all of them.
+csgcore::Box box_around(std::span<const csgcore::Box> boxes);
+
+/// Sets the scene's trees, and the cut faces of its primitives, which are there already: a leaf
+/// that is not subtracted has those alone that are marked, if it may have any (`has_marked_faces`).
+/// `boxes` holds the boxes of all leaves. Returns whether all translucent parts have the layers
+/// that OpenSCAD gives them: a design with too many has fewer (products.hpp).
 bool compose(Design design, const Leaves& leaves, std::span<const csgcore::Box> boxes,
-             PictureKind picture, csgcore::Scene& scene);
+             PictureKind picture, bool has_marked_faces, csgcore::Scene& scene);
 
 /// The box that OpenSCAD's --viewall looks at (frontend/OPENSCAD.md, "Camera").
-csgcore::Box view_box(const Design& design, std::span<const csgcore::Box> boxes);
+csgcore::Box view_box(const Design& design, std::span<const csgcore::Box> boxes,
+                      bool intersects_boxes);
 
 }  // namespace frontend

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/geometry_dialect.hpp"
 #include "frontend/stop.hpp"
 #include "heal/healing.hpp"
 #include "lower/collector.hpp"
@@ -27,12 +28,19 @@ using csgcore::Op;
 
 constexpr uint32_t kNone = Collector::kNoPrimitive;
 
-/// Writes parts of the file as trees over leaves.
+/// Writes parts of the file as trees over leaves. With `marks_cut_faces` it marks those primitives
+/// whose faces OpenSCAD's development snapshots colour as cut ones where they evaluate a solid: all
+/// that a node around them subtracts.
 class Emitter {
  public:
-  Emitter(const NodeTree& tree, const Collector& collected, const ResolvedModifiers& modifiers,
-          Leaves& leaves)
-      : tree_(tree), collected_(collected), modifiers_(modifiers), leaves_(leaves) {}
+  Emitter(const NodeTree& tree, Collector& collected, const ResolvedModifiers& modifiers,
+          Leaves& leaves, PictureKind picture, bool marks_cut_faces)
+      : tree_(tree),
+        collected_(collected),
+        modifiers_(modifiers),
+        leaves_(leaves),
+        is_rendered_(picture == PictureKind::kRendered),
+        marks_cut_faces_(marks_cut_faces) {}
 
   Design design() {
     Design design;
@@ -50,6 +58,9 @@ class Emitter {
     uint32_t compound_leaf;  // the node as it is named among the collector's; kNone: it is none
     bool keeps_highlighted;  // it is not a union, or all its operands are highlighted
     bool is_highlighted;     // it has `#`, or a node around it has
+    Op op = Op::kUnion;
+    bool is_cut = false;    // a node around it, within the solid that is evaluated, subtracts it
+    uint32_t operands = 0;  // so far
   };
 
   std::vector<LeafTree> parts(std::span<const uint32_t> roots) {
@@ -63,23 +74,26 @@ class Emitter {
 
   /// The nodes of the range as operands of a union. `root` is taken whatever its modifiers say.
   LeafTree emit(NodeRange range, uint32_t root, bool keeps_highlighted) {
-    open_.assign(1, {kNone, kNone, keeps_highlighted, false});
+    open_.assign(1, {kNone, kNone, keeps_highlighted, false, Op::kUnion, false, 0});
     for (uint32_t i = range.begin; i < range.end;) {
       const Node& node = tree_.nodes[i];
       close_until(i);
       if (i != root && !is_operand(i)) {
         i = node.end;
-      } else if (const Collector::PlaneLeaf* leaf = collected_.plane_leaf(i)) {
-        add_plane_leaf(i, *leaf);
+        continue;
+      }
+      const bool is_cut = is_next_cut();
+      if (const Collector::PlaneLeaf* leaf = collected_.plane_leaf(i)) {
+        add_plane_leaf(i, *leaf, is_cut);
         i = node.end;
       } else if (collected_.primitive_of[i] != kNone) {
-        add_primitive(i);
+        add_primitive(i, is_cut);
         i = node.end;
       } else if (row_of(node.kind).role != Role::kOperation || node.end == i + 1) {
         builder().empty();
         i = node.end;
       } else {
-        i = enter(i);
+        i = enter(i, is_cut);
       }
     }
     close_until(kNone);
@@ -98,8 +112,44 @@ class Emitter {
     }
   }
 
+  /// Returns whether the operand that follows is subtracted where it is, or with what is around it.
+  bool is_next_cut() {
+    OpenNode& around = open_.back();
+    return (around.operands++ > 0 && around.op == Op::kDifference) || around.is_cut;
+  }
+
+  /// Marks a primitive of a solid that is evaluated as a whole.
+  void mark(uint32_t primitive, bool is_cut) {
+    if (!marks_cut_faces_ || !(in_leaf_ || is_rendered_)) return;
+    collected_.primitives[primitive].cut_faces =
+        is_cut ? csgcore::CutFaces::kAlways : csgcore::CutFaces::kNever;
+  }
+
+  /// Marks the primitives of a solid that is of operations on solids, in postfix order.
+  void mark_operands(std::span<const csgcore::CsgToken> tokens) {
+    std::vector<size_t> begins;  // of operands that no operation has taken
+    std::vector<bool> is_cut(tokens.size());
+    for (size_t i = 0; i < tokens.size(); ++i) {
+      if (tokens[i].is_primitive) {
+        begins.push_back(i);
+        continue;
+      }
+      const size_t first = begins.size() - tokens[i].value;
+      if (tokens[i].op == Op::kDifference && tokens[i].value > 1) {
+        std::fill(is_cut.begin() + static_cast<std::ptrdiff_t>(begins[first + 1]),
+                  is_cut.begin() + static_cast<std::ptrdiff_t>(i), true);
+      }
+      begins.resize(first + 1);
+    }
+    for (size_t i = 0; i < tokens.size(); ++i) {
+      if (!tokens[i].is_primitive) continue;
+      collected_.primitives[tokens[i].value].cut_faces =
+          is_cut[i] ? csgcore::CutFaces::kAlways : csgcore::CutFaces::kNever;
+    }
+  }
+
   /// Opens the node, and returns the one to look at next.
-  uint32_t enter(uint32_t index) {
+  uint32_t enter(uint32_t index, bool is_cut) {
     const Node& node = tree_.nodes[index];
     const bool is_highlighted = is_highlighted_within(index);
     const uint32_t compound = in_leaf_ ? kNone : compound_leaf_at(index);
@@ -115,7 +165,8 @@ class Emitter {
     } else {
       in_leaf_ = true;
     }
-    open_.push_back({node.end, compound, keeps_highlighted, is_highlighted});
+    open_.push_back({node.end, compound, keeps_highlighted, is_highlighted, op,
+                     compound == kNone && is_cut, 0});
     return index + 1;
   }
 
@@ -135,8 +186,9 @@ class Emitter {
     add_leaf(leaf, node.is_highlighted);
   }
 
-  void add_primitive(uint32_t node) {
+  void add_primitive(uint32_t node, bool is_cut) {
     const uint32_t primitive = collected_.primitive_of[node];
+    mark(primitive, is_cut);
     if (in_leaf_) {
       leaf_builder_.primitive(primitive);
       return;
@@ -144,10 +196,17 @@ class Emitter {
     add_leaf(primitive, is_highlighted_within(node));
   }
 
-  void add_plane_leaf(uint32_t node, const Collector::PlaneLeaf& plane) {
+  void add_plane_leaf(uint32_t node, const Collector::PlaneLeaf& plane, bool is_cut) {
     if (plane.solid.empty()) {
       builder().empty();
       return;
+    }
+    if (marks_cut_faces_ && plane.has_operations && !is_cut) {
+      mark_operands(plane.solid.tokens());
+    } else {
+      for (const csgcore::CsgToken& token : plane.solid.tokens()) {
+        if (token.is_primitive) mark(token.value, is_cut);
+      }
     }
     if (in_leaf_ || plane.keeps_operations) {
       rebuild(plane.solid.tokens(), builder(),
@@ -194,9 +253,11 @@ class Emitter {
   }
 
   const NodeTree& tree_;
-  const Collector& collected_;
+  Collector& collected_;
   const ResolvedModifiers& modifiers_;
   Leaves& leaves_;
+  const bool is_rendered_;
+  const bool marks_cut_faces_;
   CsgTreeBuilder builder_, leaf_builder_;
   bool in_leaf_ = false;
   std::vector<OpenNode> open_;
@@ -261,12 +322,6 @@ ResolvedModifiers modifiers_of(const NodeTree& tree, const Collector& collected,
   modifiers.background.clear();
   modifiers.highlight.clear();
   return modifiers;
-}
-
-Box union_of(std::span<const Box> boxes) {
-  Box result;
-  for (const Box& box : boxes) result.merge(box);
-  return result;
 }
 
 /// Returns whether boxes decide about products: what is opaque needs none.
@@ -335,7 +390,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   set_flat_outlines(collected, options.picture, design);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,
-                 union_of(collected.boxes));
+                 box_around(collected.boxes));
   collected.frame_of = {};
   if (collected.compound_leaves.empty() && collected.plane_leaves.empty()) collected.frames = {};
   throw_if_stopped(stop);
@@ -347,7 +402,10 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   throw_if_stopped(stop);
   Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
   const ResolvedModifiers modifiers = modifiers_of(*tree.nodes, collected, options.picture);
-  Design trees = Emitter(*tree.nodes, collected, modifiers, leaves).design();
+  const GeometryDialect dialect(options.language);
+  Design trees =
+      Emitter(*tree.nodes, collected, modifiers, leaves, options.picture, dialect.keeps_colors)
+          .design();
   count_leaves(trees, leaves, design);
   design.faceted_leaves = static_cast<uint32_t>(
       std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
@@ -355,17 +413,19 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   design.left_out = static_cast<uint32_t>(collected.left_out.size());
   const bool decides = needs_layers(collected, options.picture);
   LeafBoxes boxes = boxes_of_leaves(collected, leaves, options.measures_leaves, decides);
+  const std::vector<Box> thick =
+      boxes_of_thick_plates(dialect.figure_thickness, collected, leaves, boxes.seen);
+  design.view_box = view_box(trees, thick.empty() ? boxes.seen : thick, dialect.intersects_boxes);
   if (!collected.plane_leaves.empty()) {
     thicken_cutting_plates(options.picture, trees, collected, leaves, boxes);
   }
-  design.view_box = view_box(trees, boxes.seen);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
     design.view_box = box_of_result(collected, leaves.expanded(trees.model), design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);
   if (!compose(std::move(trees), leaves, decides ? boxes.deciding : boxes.seen, options.picture,
-               design.scene)) {
+               dialect.keeps_colors, design.scene)) {
     design.warnings.push_back(make_warning(tree.name, {},
                                            "the translucent parts make more than " +
                                                std::to_string(kMostProducts) +

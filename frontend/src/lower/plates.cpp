@@ -1,6 +1,7 @@
 #include "lower/plates.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -85,6 +86,29 @@ class PlateThickener {
 };
 
 }  // namespace
+
+std::vector<csgcore::Box> boxes_of_thick_plates(double thickness, const Collector& collected,
+                                                const Leaves& leaves,
+                                                std::span<const csgcore::Box> boxes) {
+  std::vector<csgcore::Box> result;
+  if (thickness == 0) return result;
+  std::unordered_map<uint32_t, uint32_t> frame_of;  // by the first primitive of a plate
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    if (!leaf.is_plate || leaf.solid.empty()) continue;
+    frame_of.emplace(leaf.solid.tokens().front().value, leaf.frame);
+  }
+  if (frame_of.empty()) return result;
+  result.assign(boxes.begin(), boxes.end());
+  for (uint32_t leaf = 0; leaf < result.size(); ++leaf) {
+    const auto frame = frame_of.find(leaves.first_primitive(leaf));
+    if (frame == frame_of.end() || result[leaf].empty()) continue;
+    const csgcore::Affine& to_world = collected.frames[frame->second].to_world;
+    const csgcore::Vec3 reach = thickness / 2 * glm::abs(to_world.linear[2]);
+    result[leaf].min -= reach;
+    result[leaf].max += reach;
+  }
+  return result;
+}
 
 void thicken_cutting_plates(PictureKind picture, Design& trees, Collector& collected,
                             Leaves& leaves, LeafBoxes& boxes) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "arguments/value_text.hpp"
+#include "base/geometry_dialect.hpp"
 #include "solids/faceted_box.hpp"
 #include "solids/sliced_extrusion.hpp"
 #include "subtrees/extrusions.hpp"
@@ -65,6 +66,7 @@ Vec2 read_top_scale(NodeReader& reader) {
 LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
                                       const ImportOptions& options) {
   arguments.facets = chosen(options, arguments.facets);
+  arguments.cuts_edges = GeometryDialect(options.language).cuts_twisted_edges;
   // Few slices are kept as few fragments are.
   csgcore::FacetSettings asked = arguments.facets;
   if (arguments.slices) asked.fn = *arguments.slices;

@@ -1,12 +1,14 @@
 #include <array>
+#include <cmath>
 
+#include "base/geometry_dialect.hpp"
 #include "subtrees/node_row.hpp"
 
 namespace frontend {
 namespace {
 
 /// In NodeKind's order.
-constexpr std::array kRows{
+constexpr std::array kNodeRows{
     &kSphereRow, &kCylinderRow,      &kCubeRow,          &kPolyhedronRow, &kCircleRow,
     &kSquareRow, &kPolygonRow,       &kTextRow,          &kMultmatrixRow, &kColorRow,
     &kGroupRow,  &kRenderRow,        &kUnionRow,         &kDifferenceRow, &kIntersectionRow,
@@ -14,21 +16,25 @@ constexpr std::array kRows{
     &kResizeRow, &kLinearExtrudeRow, &kRotateExtrudeRow, &kImportRow,     &kSurfaceRow,
     &kRoofRow,
 };
-static_assert(kRows.size() == language::kNodeNames.size());
+static_assert(kNodeRows.size() == language::kNodeNames.size());
 
 }  // namespace
 
-const NodeRow& row_of(NodeKind kind) { return *kRows[static_cast<size_t>(kind)]; }
+const NodeRow& row_of(NodeKind kind) { return *kNodeRows[static_cast<size_t>(kind)]; }
 
 csgcore::FacetSettings chosen(const ImportOptions& options, csgcore::FacetSettings facets) {
   if (options.fn) facets.fn = *options.fn;
+  if (GeometryDialect(options.language).rounds_fragments_up) facets.fn = std::ceil(facets.fn);
+  if (facets.fn > 0) facets.tolerance = 0;
   return facets;
 }
 
 csgcore::FacetSettings chosen(const NodeSources& sources, csgcore::FacetSettings facets) {
   facets = chosen(sources.options, facets);
   const bool is_polygon = facets.fn > 0 && facets.fn <= sources.options.few_fragments;
-  if (!is_polygon) facets.tolerance = sources.options.tolerance / sources.stretch;
+  if (!is_polygon && sources.options.tolerance > 0) {
+    facets.tolerance = sources.options.tolerance / sources.stretch;
+  }
   return facets;
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/geometry_dialect.hpp"
 #include "subtrees/node_row.hpp"
 
 namespace frontend {
@@ -11,20 +12,6 @@ namespace {
 
 constexpr language::ArgumentName kTextLabel[] = {"text"};
 
-template <typename Align>
-struct AlignWord {
-  std::string_view word;
-  Align align;
-};
-constexpr std::array<AlignWord<HorizontalAlign>, 3> kHorizontalWords = {
-    {{"left", HorizontalAlign::kLeft},
-     {"right", HorizontalAlign::kRight},
-     {"center", HorizontalAlign::kCenter}}};
-constexpr std::array<AlignWord<VerticalAlign>, 4> kVerticalWords = {
-    {{"baseline", VerticalAlign::kBaseline},
-     {"bottom", VerticalAlign::kBottom},
-     {"top", VerticalAlign::kTop},
-     {"center", VerticalAlign::kCenter}}};
 /// OpenSCAD's development version writes this where nothing is said.
 constexpr std::string_view kDefaultWord = "default";
 
@@ -39,23 +26,21 @@ std::string listed(const Words& words) {
   return text;
 }
 
-/// The first of the words is the default.
-template <typename Words>
-auto read_alignment(NodeReader& reader, language::ArgumentName name, const Words& words) {
+template <typename Align, size_t kCount>
+Align read_alignment(NodeReader& reader, language::ArgumentName name,
+                     const std::array<AlignWord<Align>, kCount>& words) {
   const std::string_view given = reader.text(name);
-  for (const auto& known : words) {
-    if (given == known.word) return known.align;
-  }
-  if (!given.empty() && given != kDefaultWord) {
+  const Align align = align_of(given, words);
+  if (align == Align::kDefault && !given.empty() && given != kDefaultWord) {
     reader.tell({": Unknown value for the " + std::string(name.text()) + " parameter (use " +
                      listed(words) + "): '" + std::string(given) + "'",
                  "it counts as missing"});
   }
-  return words.front().align;
+  return align;
 }
 
 /// A text that is no string is empty.
-TextSettings read_settings(NodeReader& reader) {
+TextSettings read_settings(NodeReader& reader, const GeometryDialect& dialect) {
   TextSettings result;
   result.letters.text = reader.text("text", 0);
   result.size = reader.number("size", 1).value_or(result.size);
@@ -67,6 +52,8 @@ TextSettings read_settings(NodeReader& reader) {
   if (result.letters.language.empty()) result.letters.language = "en";
   result.halign = read_alignment(reader, "halign", kHorizontalWords);
   result.valign = read_alignment(reader, "valign", kVerticalWords);
+  result.is_placed_exactly = dialect.places_letters_exactly;
+  result.has_features = dialect.has_font_features;
   return result;
 }
 
@@ -104,7 +91,7 @@ int pieces_of_curves(const csgcore::FacetSettings& facets, double size,
 }
 
 TextNode read_text(NodeReader& reader, const NodeSources& sources) {
-  const TextSettings text = read_settings(reader);
+  const TextSettings text = read_settings(reader, GeometryDialect(sources.options.language));
   const csgcore::FacetSettings facets = chosen(sources, reader.facets());
   const int pieces = pieces_of_curves(facets, text.size, sources.options);
   return {letters_of(reader, text, pieces, sources.fonts)};

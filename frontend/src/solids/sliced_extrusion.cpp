@@ -60,8 +60,11 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data, c
   if (outline->empty()) return std::nullopt;
   // Where sides turn, a corner that only rounding has made would show as a stripe.
   if (std::ranges::all_of(figures, is_polygonal)) outline = without_slight_corners(*outline);
-  const double slices = given.slices ? *given.slices : slice_count(layers, *outline, given.facets);
-  Slicing slicing = openscad_slicing(slices, given.segments, *outline);
+  const double slices =
+      given.slices ? *given.slices : slice_count(layers, *outline, given.facets, given.cuts_edges);
+  Slicing slicing = given.cuts_edges
+                        ? cut_slicing(layers, slices, given.segments, given.facets, *outline)
+                        : openscad_slicing(slices, given.segments, *outline);
   if (slicing.slices < slices) {
     problems.add(node, {" is drawn with " + std::to_string(slicing.slices) +
                             " slices: more would be too many triangles",

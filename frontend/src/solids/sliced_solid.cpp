@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -269,12 +270,10 @@ constexpr double kMostSegments = 1 << 16;
 
 /// The pieces of each edge that OpenSCAD's `segments` asks for: the longest ones are cut, and those
 /// that are about as long together, while no more pieces than asked for result.
-std::vector<int> segments_of(const Polygon& polygon, double wanted) {
+std::vector<int> segments_of(std::span<const double> length, double wanted) {
   constexpr double kAboutAsLong = 0.999;
-  std::vector<double> length;
-  visit_edges(polygon, [&](const Vec2& a, const Vec2& b) { length.push_back(glm::length(b - a)); });
-  std::vector<int> count(polygon.size(), 1);
-  size_t total = polygon.size();
+  std::vector<int> count(length.size(), 1);
+  size_t total = length.size();
   while (static_cast<double>(total) < wanted) {
     const auto share = [&](size_t i) { return length[i] / (count[i] + 0.5); };
     double longest = 0;
@@ -288,6 +287,27 @@ std::vector<int> segments_of(const Polygon& polygon, double wanted) {
     total += chosen.size();
   }
   return count;
+}
+
+/// The length of each edge's longest image in a layer.
+std::vector<double> longest_images(const TwistedLayers& layers, int slices,
+                                   const Polygon& polygon) {
+  std::vector<double> lengths;
+  visit_edges(polygon, [&](const Vec2& a, const Vec2& b) {
+    double longest = glm::length(b - a);
+    for (int layer = 1; layer <= slices; ++layer) {
+      const double share = static_cast<double>(layer) / slices;
+      longest = std::max(longest, glm::length(layers.point_at(share, b - a)));
+    }
+    lengths.push_back(longest);
+  });
+  return lengths;
+}
+
+Slicing sliced_outline(double slices, SimplePolygons outline) {
+  const int count = affordable_slices(slices, edge_count(outline));
+  const size_t polygons = outline.size();
+  return {count, std::move(outline), std::vector<size_t>(polygons, 0)};
 }
 
 }  // namespace
@@ -331,21 +351,59 @@ int affordable_slices(double slices, size_t edges) {
 }
 
 double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,
-                   const csgcore::FacetSettings& facets) {
-  if (layers.twist != 0) return twisted_slices(layers, reach_of(outline), facets);
-  if (layers.top_scale.x == layers.top_scale.y) return 1;
-  return scaled_slices(layers, outline, facets);
+                   const csgcore::FacetSettings& facets, bool counts_scale) {
+  const bool is_uneven = layers.top_scale.x != layers.top_scale.y;
+  double count = 1;
+  if (layers.twist != 0) count = twisted_slices(layers, reach_of(outline), facets);
+  if (is_uneven && (layers.twist == 0 || counts_scale)) {
+    count = std::max(count, scaled_slices(layers, outline, facets));
+  }
+  return count;
 }
 
 Slicing openscad_slicing(double slices, const std::optional<double>& segments,
                          SimplePolygons outline) {
   if (segments) {
-    const double wanted = std::min(*segments, kMostSegments);
-    for (Polygon& polygon : outline) polygon = cut(polygon, segments_of(polygon, wanted));
+    for (Polygon& polygon : outline) {
+      std::vector<double> lengths;
+      visit_edges(polygon,
+                  [&](const Vec2& a, const Vec2& b) { lengths.push_back(glm::length(b - a)); });
+      polygon = cut(polygon, segments_of(lengths, std::min(*segments, kMostSegments)));
+    }
   }
-  const int count = affordable_slices(slices, edge_count(outline));
-  const size_t polygons = outline.size();
-  return {count, std::move(outline), std::vector<size_t>(polygons, 0)};
+  return sliced_outline(slices, std::move(outline));
+}
+
+Slicing cut_slicing(const TwistedLayers& layers, double slices,
+                    const std::optional<double>& segments, const csgcore::FacetSettings& facets,
+                    SimplePolygons outline) {
+  constexpr double kLeastSegment = 0.01;  // OpenSCAD's limit of $fs
+  const int layer_count = affordable_slices(slices, edge_count(outline));
+  const std::optional<double> asked =
+      segments || !(facets.fn > 0) ? segments : std::optional(facets.fn);
+  const auto segments_by_size = [&](const std::vector<double>& lengths) {
+    std::vector<int> count;
+    for (const double length : lengths) {
+      const double wanted = std::ceil(length / std::max(facets.fs, kLeastSegment));
+      count.push_back(static_cast<int>(std::clamp(wanted, 1.0, kMostSegments)));
+    }
+    return count;
+  };
+  std::vector<std::vector<int>> counts;
+  double total = 0;
+  for (const Polygon& polygon : outline) {
+    const std::vector<double> lengths = longest_images(layers, layer_count, polygon);
+    counts.push_back(asked ? segments_of(lengths, std::min(*asked, kMostSegments))
+                           : segments_by_size(lengths));
+    for (const int count : counts.back()) total += count;
+  }
+  // Rather fewer segments than fewer slices.
+  const double share = std::min(1.0, kMostSideTriangles / (2 * total * layer_count));
+  for (size_t i = 0; i < outline.size(); ++i) {
+    for (int& count : counts[i]) count = std::max(1, static_cast<int>(share * count));
+    outline[i] = cut(outline[i], counts[i]);
+  }
+  return sliced_outline(slices, std::move(outline));
 }
 
 }  // namespace frontend

@@ -38,8 +38,10 @@ struct TwistedLayers {
 ///   the helix, or conical spiral, of the farthest corner; scales that differ do not count
 /// - no twist, $fn > 0: $fn without its fraction
 /// - no twist: ⌈L/$fs⌉, where L is the longest way of a corner, from the bottom to the top
+/// With `counts_scale`, which OpenSCAD 2021.01 does not know, scales that differ ask for no fewer
+/// slices with a twist than without.
 double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,
-                   const csgcore::FacetSettings& facets);
+                   const csgcore::FacetSettings& facets, bool counts_scale = false);
 
 /// Returns the largest distance of the outline from the origin.
 double reach_of(const SimplePolygons& outline);
@@ -64,6 +66,14 @@ int affordable_slices(double slices, size_t edges);
 /// if that is given. There are fewer slices if the triangles would be more than kMostSideTriangles.
 Slicing openscad_slicing(double slices, const std::optional<double>& segments,
                          SimplePolygons outline);
+
+/// Returns the slices of OpenSCAD's development snapshots, with edges cut into ⌈L/$fs⌉ pieces,
+/// where L is the length of the longest image that the edge has in a layer; or for $fn > 0, or
+/// where `segments` are given, so many for each polygon as openscad_slicing() has, by these
+/// lengths.
+Slicing cut_slicing(const TwistedLayers& layers, double slices,
+                    const std::optional<double>& segments, const csgcore::FacetSettings& facets,
+                    SimplePolygons outline);
 
 /// Returns the closed mesh. Of the two diagonals of a quadrilateral of the sides it takes the one
 /// that OpenSCAD takes. The polygons of the outline do not cross.

@@ -70,17 +70,17 @@ TEST(Options, Defaults) {
 TEST(Options, LanguageIsThatOfTheOptionOrTheEnvironment) {
   using language::LanguageVersion;
   unsetenv("SCADRAY_LANGUAGE");
-  EXPECT_EQ(parse_drawing({}).language, kDefaultLanguage);
-  EXPECT_EQ(parse_drawing({"--language=2026"}).language, LanguageVersion::k2026);
-  EXPECT_EQ(parse_drawing({"--language=2021.01"}).language, LanguageVersion::k2021);
+  EXPECT_EQ(parse_drawing({}).import.language, kDefaultLanguage);
+  EXPECT_EQ(parse_drawing({"--language=2026"}).import.language, LanguageVersion::k2026);
+  EXPECT_EQ(parse_drawing({"--language=2021.01"}).import.language, LanguageVersion::k2021);
   EXPECT_THAT(drawing_error({"--language=2022"}), HasSubstr("--language=2022"));
   setenv("SCADRAY_LANGUAGE", "2026", 1);
-  EXPECT_EQ(parse_drawing({}).language, LanguageVersion::k2026);
-  EXPECT_EQ(parse_drawing({"--language=2021.01"}).language, LanguageVersion::k2021);
+  EXPECT_EQ(parse_drawing({}).import.language, LanguageVersion::k2026);
+  EXPECT_EQ(parse_drawing({"--language=2021.01"}).import.language, LanguageVersion::k2021);
   setenv("SCADRAY_LANGUAGE", "old", 1);
   EXPECT_THAT(drawing_error({}), HasSubstr("SCADRAY_LANGUAGE=old"));
   setenv("SCADRAY_LANGUAGE", "", 1);
-  EXPECT_EQ(parse_drawing({}).language, kDefaultLanguage);
+  EXPECT_EQ(parse_drawing({}).import.language, kDefaultLanguage);
   unsetenv("SCADRAY_LANGUAGE");
 }
 

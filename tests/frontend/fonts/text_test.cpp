@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -311,6 +312,45 @@ TEST_F(Text, IsAPlaneFigureLikeOthers) {
   const csgcore::Solid solid(csgcore::canonical_primitives(holes.scene), holes.scene.model);
   EXPECT_TRUE(solid.contains(Vec3(10, 5, 1)));
   EXPECT_FALSE(solid.contains(Vec3(2, 5, 1)));
+}
+
+/// The boxes that OpenSCAD 2025.07.18 gives these texts, in x and y.
+TEST_F(Text, OfTheDialectOf2026StandsExactly) {
+  struct Case {
+    std::string arguments;
+    std::array<double, 4> box;  // least and largest x, least and largest y
+  };
+  const std::string vertical = R"(direction = "ttb")";
+  for (const auto& [arguments, box] : std::vector<Case>{
+           {R"(halign = "default", valign = "default")", {1.139, 23.844, 0, 9.555}},
+           {R"(halign = "center", valign = "center")", {-11.081, 11.623, -4.778, 4.777}},
+           {R"(halign = "right", valign = "top")", {-23.302, -0.597, -9.555, 0}},
+           {vertical, {-3.93, 4.035, -37.36, -1.737}},
+           {vertical + R"(, halign = "left", valign = "center")", {0.005, 7.969, -17.809, 17.815}},
+           {vertical + R"(, halign = "right", valign = "bottom")",
+            {-7.97, -0.006, 1.743, 37.367}}}) {
+    const ImportedDesign design = import_with_fonts(extruded(text("LTE", arguments)),
+                                                    {.language = language::LanguageVersion::k2026});
+    EXPECT_NEAR(design.view_box.min.x, box[0], 2e-3) << arguments;
+    EXPECT_NEAR(design.view_box.max.x, box[1], 2e-3) << arguments;
+    EXPECT_NEAR(design.view_box.min.y, box[2], 2e-3) << arguments;
+    EXPECT_NEAR(design.view_box.max.y, box[3], 2e-3) << arguments;
+  }
+}
+
+TEST_F(Text, HasTheFeaturesThatItsFontNames) {
+  const auto width = [](const std::string& features, language::LanguageVersion language) {
+    const csgcore::Box box =
+        import_with_fonts(
+            extruded("text(text = \"AVA\", font = \"Liberation Sans" + features + "\");"),
+            {.language = language})
+            .view_box;
+    return box.max.x - box.min.x;
+  };
+  EXPECT_NEAR(width("", language::LanguageVersion::k2026), 25.675, 2e-3);
+  EXPECT_NEAR(width(":fontfeatures=-kern", language::LanguageVersion::k2026), 27.737, 2e-3);
+  EXPECT_EQ(width(":fontfeatures=-kern", language::LanguageVersion::k2021),
+            width("", language::LanguageVersion::k2021));
 }
 
 TEST_F(Text, ScalesAboutTheOriginOfItsExtrusion) {

@@ -1,4 +1,5 @@
 // Tests how extrusions are cut into slices, and the meshes between them.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,8 @@
 
 namespace frontend {
 namespace {
+
+using testing::ElementsAre;
 
 SimplePolygons square(double size) { return {{{0, 0}, {size, 0}, {size, size}, {0, size}}}; }
 
@@ -53,6 +56,42 @@ TEST(OpenScadSlicing, IsBounded) {
   EXPECT_LE(2.0 * slicing.slices * static_cast<double>(slicing.outline.front().size()),
             kMostSideTriangles);
   EXPECT_EQ(openscad_slicing(1e300, std::nullopt, square(1)).slices, kMostSideTriangles / 8);
+}
+
+/// How many pieces each edge of a rectangle of 5 by 3 has. The expected ones are those of OpenSCAD
+/// 2025.07.18.
+std::vector<size_t> pieces_of(double twist, const Vec2& scale,
+                              const csgcore::FacetSettings& facets = {},
+                              const std::optional<double>& segments = {}) {
+  const SimplePolygons outline{{{-2.5, -1.5}, {2.5, -1.5}, {2.5, 1.5}, {-2.5, 1.5}}};
+  const Slicing slicing = cut_slicing({0, 10, twist, scale}, 5, segments, facets, outline);
+  std::vector<size_t> count(2);
+  for (const Vec2& point : slicing.outline.front()) {
+    if (point.y == -1.5 && point.x < 2.5) ++count[0];
+    if (point.x == 2.5 && point.y < 1.5) ++count[1];
+  }
+  return count;
+}
+
+TEST(CutSlicing, EdgesOfTwistedExtrusionsAreCut) {
+  EXPECT_THAT(pieces_of(90, {1, 1}), ElementsAre(3, 2));
+  EXPECT_THAT(pieces_of(0, {2, 0.5}), ElementsAre(5, 2));
+  EXPECT_THAT(pieces_of(0, {0.5, 2}), ElementsAre(3, 3));
+  // The image of an edge may be longest between the ends.
+  EXPECT_THAT(pieces_of(60, {2, 0.5}), ElementsAre(4, 3));
+  EXPECT_THAT(pieces_of(90, {3, 1}), ElementsAre(4, 5));
+  EXPECT_THAT(pieces_of(200, {2, 1}), ElementsAre(5, 3));
+  EXPECT_THAT(pieces_of(30, {1, 1}, {}, 4), ElementsAre(1, 1));
+  // No more slices are lost than edges can be cut without.
+  EXPECT_THAT(pieces_of(90, {1, 1}, {0, 12, 1e-9}), testing::Each(testing::Le(1u << 16)));
+}
+
+TEST(SliceCount, AnUnevenScaleAsksForItsSlices) {
+  const SimplePolygons outline{{{-2.5, -1.5}, {2.5, -1.5}, {2.5, 1.5}, {-2.5, 1.5}}};
+  const TwistedLayers layers{0, 10, 200, {2, 1}};
+  EXPECT_EQ(slice_count(layers, outline, {20, 12, 2}, true), 20);
+  EXPECT_EQ(slice_count(layers, outline, {20, 12, 2}), 12);
+  EXPECT_EQ(slice_count(layers, outline, {}, true), 8);
 }
 
 /// The largest distance between the middle of a quadrilateral's diagonal and the smooth side, as a
