@@ -26,6 +26,10 @@ class WrongAnswer(Exception):
     """A picture is wrong: none of its times may be reported."""
 
 
+# Designs are compared with the installed openscad's.
+os.environ.setdefault("SCADRAY_LANGUAGE", "2021.01")
+
+
 @dataclasses.dataclass
 class Settings:
     scadray: str

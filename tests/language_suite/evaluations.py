@@ -3,6 +3,9 @@
 import os
 import subprocess
 
+# What the installed openscad speaks.
+os.environ.setdefault("SCADRAY_LANGUAGE", "2021.01")
+
 
 def run(command, folder, limit_s, **environment):
     """Returns the exit status, None after the time limit, and the messages. (On standard output openscad

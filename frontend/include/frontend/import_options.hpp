@@ -37,7 +37,7 @@ enum class PictureKind : uint8_t {
 constexpr csgcore::Color kSeenFromWithin{1, 0, 1, 1};
 
 /// The version of the language unless --language or the environment says otherwise.
-constexpr language::LanguageVersion kDefaultLanguage = language::LanguageVersion::k2021;
+constexpr language::LanguageVersion kDefaultLanguage = language::LanguageVersion::k2026;
 
 struct ImportOptions {
   /// Whose language a design is evaluated in by the own evaluator, and whose rules its tree is

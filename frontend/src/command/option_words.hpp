@@ -96,8 +96,8 @@ constexpr OptionRow kEvaluatorOption{
     "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>};
 constexpr OptionRow kLanguageOption{
     "language", Takes::kText, "VERSION",
-    "the OpenSCAD whose language a .scad is in: 2021.01, the last release, or 2026, the "
-    "development snapshots; default: $SCADRAY_LANGUAGE, 2021.01",
+    "the OpenSCAD whose language a .scad is in, and that draws it: 2026, the development "
+    "snapshots, or 2021.01, the last release; default: $SCADRAY_LANGUAGE, 2026",
     kOneOf<kLanguages>};
 constexpr OptionRow kTimeoutOption{"openscad-timeout", Takes::kText, "SECONDS",
                                    "without effect: what is not drawn is left out"};

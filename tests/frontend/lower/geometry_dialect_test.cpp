@@ -101,7 +101,7 @@ TEST(GeometryDialect, ALeafIsTranslucentWherePartOfItIs) {
   EXPECT_FALSE(scene.layers.empty());
 }
 
-// By July 2026's golden pictures, as openscad2026.md has them.
+// By the golden pictures of July 2026.
 TEST(GeometryDialect, TheCameraSeesIntersections) {
   expect_box(box_to_see("intersection() { cube(10); multmatrix([[1,0,0,5]]) { cube(10); } }"),
              Vec3(5, 0, 0), Vec3(10), 0);
