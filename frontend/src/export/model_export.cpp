@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "export/model_writers.hpp"
 #include "export/written_mesh.hpp"
 #include "frontend/render_settings.hpp"
+#include "language/color_names.hpp"
 #include "plane/figure.hpp"
 #include "solids/leaves.hpp"
 #include "solids/triangles_of.hpp"
@@ -44,6 +46,13 @@ Polygons outlines_of(const ImportedDesign& design) {
   return outlines;
 }
 
+/// Limits the threads that work, unless it is 0, as long as the result lives.
+std::optional<tbb::global_control> limit_of(unsigned threads) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  return limit;
+}
+
 csgcore::Box box_of(const TriangleSet& surface) {
   csgcore::Box box;
   for (const csgcore::Vec3& vertex : surface.vertices) box.merge(vertex);
@@ -65,15 +74,51 @@ std::string encoded(const TriangleSet& surface, ModelFormat format) {
   }
 }
 
-std::string encoded(const Polygons& outlines, ModelFormat format) {
+std::string encoded(const Polygons& outlines, ModelFormat format, const ExportSettings& settings) {
   switch (format) {
     case ModelFormat::kDxf:
       return dxf_of(outlines);
     case ModelFormat::kPdf:
-      return pdf_of(outlines);
+      return pdf_of(outlines, settings);
     default:
-      return svg_of(outlines);
+      return svg_of(outlines, settings);
   }
+}
+
+/// Returns whether the polygon, which does not cross itself, turns to one side at every corner.
+bool is_convex(const Polygon& polygon) {
+  const double side = signed_area(polygon) < 0 ? -1 : 1;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const Vec2 c = polygon[(i + 2) % polygon.size()];
+    if (side * ((b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x)) < 0) return false;
+  }
+  return true;
+}
+
+ModelFigures figures_of(const Polygons& outlines) {
+  ModelFigures figures{.is_plane = true, .outlines = outlines.size()};
+  for (const Polygon& outline : outlines) {
+    figures.area += signed_area(outline);  // holes run the other way
+    for (const Vec2& point : outline) figures.box.merge({point.x, point.y, 0});
+  }
+  figures.area = std::abs(figures.area);
+  figures.is_convex = outlines.size() == 1 && is_convex(outlines.front());
+  return figures;
+}
+
+ModelFigures figures_of(const TriangleSet& surface) {
+  ModelFigures figures{.box = box_of(surface),
+                       .vertices = surface.vertices.size(),
+                       .triangles = surface.triangles.size(),
+                       .is_closed = csgcore::open_edges(surface) == 0};
+  for (const std::array<uint32_t, 3>& t : surface.triangles) {
+    const csgcore::Vec3& origin = surface.vertices[t[0]];
+    figures.area +=
+        glm::length(glm::cross(surface.vertices[t[1]] - origin, surface.vertices[t[2]] - origin)) /
+        2;
+  }
+  return figures;
 }
 
 }  // namespace
@@ -87,8 +132,9 @@ ImportOptions options_for_export(ImportOptions options) {
   return options;
 }
 
-ModelExport::ModelExport(const ImportedDesign& design, const DesignTree& tree, unsigned threads)
-    : design_(design), tree_(tree), threads_(threads) {}
+ModelExport::ModelExport(const ImportedDesign& design, const DesignTree& tree, unsigned threads,
+                         ExportSettings settings)
+    : design_(design), tree_(tree), threads_(threads), settings_(std::move(settings)) {}
 
 void ModelExport::check(ModelFormat format) const {
   const auto fail = [&](const char* what) { throw Error(tree_.name, {}, what, ""); };
@@ -107,17 +153,16 @@ void ModelExport::check(ModelFormat format) const {
 
 std::string ModelExport::encode(ModelFormat format) {
   check(format);
-  std::optional<tbb::global_control> limit;
-  if (threads_ > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads_);
-  if (is_plane_format(format)) return encoded(outlines_of(design_), format);
+  const std::optional<tbb::global_control> limit = limit_of(threads_);
+  if (is_plane_format(format)) return encoded(outlines_of(design_), format, settings_);
   if (format == ModelFormat::k3mf) {
     std::vector<ExportedPart> written;
-    for (const ExportedPart& part : parts()) {
+    for (const ExportedPart& part : colored_parts()) {
       TriangleSet rounded = written_mesh(part.surface, Precision::kFloat, tree_.name);
       if (!rounded.triangles.empty()) written.push_back({std::move(rounded), part.color});
     }
     if (written.empty()) fail_as_too_small();
-    return three_mf_of(written);
+    return three_mf_of(written, settings_);
   }
   const Precision precision = format == ModelFormat::kOff ? Precision::kDouble : Precision::kFloat;
   const TriangleSet rounded = written_mesh(surface(), precision, tree_.name);
@@ -171,13 +216,36 @@ void ModelExport::find_operands() {
   solid_ = builder.finish();
 }
 
-const TriangleSet& ModelExport::surface() {
+const TriangleSet& ModelExport::surface_or_nothing() {
   find_operands();
   if (!surface_) surface_ = csgcore::boundary_mesh(operands_, solid_);
-  if (surface_->triangles.empty()) {
+  return *surface_;
+}
+
+const TriangleSet& ModelExport::surface() {
+  if (surface_or_nothing().triangles.empty()) {
     throw Error(tree_.name, {}, "Current top level object is empty.", "");
   }
   return *surface_;
+}
+
+std::optional<ModelFigures> ModelExport::figures() {
+  if (!design_.flat_outlines.empty()) return figures_of(outlines_of(design_));
+  if (design_.is_plane_figure || design_.scene.model.empty()) return std::nullopt;
+  const std::optional<tbb::global_control> limit = limit_of(threads_);
+  const TriangleSet mesh = written_mesh(surface_or_nothing(), Precision::kDouble, tree_.name);
+  if (mesh.triangles.empty()) return std::nullopt;
+  return figures_of(mesh);
+}
+
+std::vector<ExportedPart> ModelExport::colored_parts() {
+  if (settings_.three_mf_colors == "model") return parts();
+  ExportedPart whole{surface(), {}};
+  const auto color = language::color_of_name(settings_.three_mf_color);
+  if (settings_.three_mf_colors == "selected-only" && color) {
+    whole.color = Color{(*color)[0], (*color)[1], (*color)[2], (*color)[3]};
+  }
+  return {whole};
 }
 
 const std::vector<ExportedPart>& ModelExport::parts() {

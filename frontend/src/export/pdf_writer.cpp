@@ -1,11 +1,14 @@
 // PDF: the outlines as lines on one page, in their true size.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "export/model_writers.hpp"
 #include "export/written_numbers.hpp"
+#include "language/color_names.hpp"
 
 namespace frontend {
 namespace {
@@ -39,19 +42,77 @@ class PdfFile {
   std::vector<size_t> begins_;
 };
 
-/// Returns half of the page's size in points: of A4, or what the outlines need with a margin.
-Vec2 half_page_of(const Rectangle& box) {
+/// Returns the paper's size upright, in points.
+Vec2 paper_of(const std::string& name) {
+  if (name == "a6") return {298, 420};
+  if (name == "a5") return {420, 595};
+  if (name == "a3") return {842, 1191};
+  if (name == "letter") return {612, 792};
+  if (name == "legal") return {612, 1008};
+  if (name == "tabloid") return {792, 1224};
+  return {595, 842};  // A4
+}
+
+/// Returns half of the page's size in points: of the paper, or what the outlines need with a
+/// margin.
+Vec2 half_page_of(const Rectangle& box, const ExportSettings& settings) {
   constexpr double kMarginMm = 10;
-  const Vec2 half_a4(297.5, 421);
+  Vec2 paper = paper_of(settings.pdf_paper);
   const Vec2 reach = glm::max(glm::abs(box.min), glm::abs(box.max)) + kMarginMm;
-  return glm::max(glm::ceil(reach * kPointsPerMm), half_a4);
+  const std::string& orientation = settings.pdf_orientation;
+  if (orientation == "landscape" || (orientation == "auto" && reach.x > reach.y)) {
+    std::swap(paper.x, paper.y);
+  }
+  return glm::max(glm::ceil(reach * kPointsPerMm), paper / 2.0);
+}
+
+/// Appends red, green and blue and the operator that takes them.
+void append_color(std::string& text, const std::string& name, const char* action) {
+  const auto color = language::color_of_name(name).value_or(std::array<float, 4>{});
+  for (const size_t channel : {0, 1, 2}) {
+    append_number(text, color[channel]);
+    text += ' ';
+  }
+  text += action;
+  text += ' ';
+}
+
+/// Returns the text as PDF's strings have it: beyond ASCII in UTF-8 with its mark, as of PDF 2.0.
+std::string pdf_string(const std::string& text) {
+  const bool is_ascii = std::all_of(text.begin(), text.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  std::string written = is_ascii ? "(" : "(\xEF\xBB\xBF";
+  for (const char c : text) {
+    if (c == '(' || c == ')' || c == '\\') written += '\\';
+    written += c;
+  }
+  return written + ")";
+}
+
+std::string document_information(const ExportSettings& settings) {
+  std::string text = "<< ";
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) text += std::string("/") + key + " " + pdf_string(value) + " ";
+  };
+  if (settings.pdf_meta_data) {
+    add("Title", settings.pdf_title);
+    add("Author", settings.pdf_author);
+    add("Subject", settings.pdf_subject);
+    add("Keywords", settings.pdf_keywords);
+  }
+  return text + "/Producer (scadray) >>";
 }
 
 }  // namespace
 
-std::string pdf_of(const Polygons& outlines) {
-  const Vec2 half_page = half_page_of(bounds_of(outlines));
-  std::string drawing = "0 0 0 RG 1 w 0 J 0 j\n";
+std::string pdf_of(const Polygons& outlines, const ExportSettings& settings) {
+  const Vec2 half_page = half_page_of(bounds_of(outlines), settings);
+  const ExportSettings::Stroke& look = settings.pdf;
+  std::string drawing;
+  append_color(drawing, look.stroke_color, "RG");
+  if (look.fill) append_color(drawing, look.fill_color, "rg");
+  append_number(drawing, static_cast<float>(look.stroke_width * kPointsPerMm));
+  drawing += " w 0 J 0 j\n";
   const auto append_point = [&](const Vec2& point, char action) {
     const Vec2 place = point * kPointsPerMm + half_page;
     append_fixed(drawing, place.x, kDigitsOfPoints);
@@ -63,7 +124,8 @@ std::string pdf_of(const Polygons& outlines) {
     for (size_t i = 0; i < outline.size(); ++i) append_point(outline[i], i == 0 ? 'm' : 'l');
     drawing += "h\n";
   }
-  drawing += "S";
+  // Holes are not filled: B*, f* and S paint both, the inside alone, the lines alone; n nothing.
+  drawing += look.fill && look.stroke ? "B*" : look.fill ? "f*" : look.stroke ? "S" : "n";
   std::string page_size;
   append_fixed(page_size, 2 * half_page.x, 0);
   page_size += ' ';
@@ -75,7 +137,7 @@ std::string pdf_of(const Polygons& outlines) {
            "] /Resources << >> /Contents 4 0 R >>");
   file.add("<< /Length " + std::to_string(drawing.size()) + " >>\nstream\n" + drawing +
            "\nendstream");
-  file.add("<< /Title (OpenSCAD Model) /Producer (scadray) >>");
+  file.add(document_information(settings));
   return file.finish();
 }
 

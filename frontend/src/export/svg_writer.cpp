@@ -7,7 +7,27 @@
 
 namespace frontend {
 
-std::string svg_of(const Polygons& outlines) {
+std::string xml_text(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string svg_of(const Polygons& outlines, const ExportSettings& settings) {
   const Rectangle box = bounds_of(outlines);
   const Vec2 min = glm::floor(box.min), max = glm::ceil(box.max);
   std::string width, height, corner;
@@ -36,7 +56,14 @@ std::string svg_of(const Polygons& outlines) {
     }
     text += " z\n";
   }
-  return text + "\" stroke=\"black\" fill=\"lightgray\" stroke-width=\"0.5\"/>\n</svg>\n";
+  const ExportSettings::Stroke& stroke = settings.svg;
+  const auto color = [](bool is_drawn, const std::string& name) {
+    return is_drawn ? xml_text(name) : std::string("none");
+  };
+  text += "\" stroke=\"" + color(stroke.stroke, stroke.stroke_color) + "\" fill=\"" +
+          color(stroke.fill, stroke.fill_color) + "\" stroke-width=\"";
+  append_number(text, stroke.stroke_width);
+  return text + "\"/>\n</svg>\n";
 }
 
 }  // namespace frontend

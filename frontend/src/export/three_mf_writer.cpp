@@ -77,7 +77,8 @@ void append_start(std::string& text, std::string_view element, size_t id) {
 
 class ModelText {
  public:
-  explicit ModelText(std::span<const ExportedPart> parts) : parts_(parts) {
+  ModelText(std::span<const ExportedPart> parts, const ExportSettings& settings)
+      : parts_(parts), settings_(settings), is_color_group_(settings.three_mf_material == "color") {
     has_colors_ = std::any_of(parts.begin(), parts.end(),
                               [](const ExportedPart& part) { return part.color.has_value(); });
   }
@@ -85,9 +86,13 @@ class ModelText {
   std::string take() {
     text_ =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<model xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
-        "unit=\"millimeter\" xml:lang=\"en-US\">\n"
-        "\t<resources>\n";
+        "<model xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" ";
+    if (is_color_group_) {
+      text_ += "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\" ";
+    }
+    text_ += "unit=\"" + settings_.three_mf_unit + "\" xml:lang=\"en-US\">\n";
+    if (settings_.three_mf_meta_data) add_meta_data();
+    text_ += "\t<resources>\n";
     if (has_colors_) add_materials();
     for (size_t i = 0; i < parts_.size(); ++i) add_object(i);
     const bool is_assembly = parts_.size() > 1;
@@ -103,16 +108,34 @@ class ModelText {
 
   size_t object_id(size_t part) const { return kMaterialsId + has_colors_ + part; }
 
+  void add_meta_data() {
+    const std::pair<const char*, const std::string&> all[] = {
+        {"Title", settings_.three_mf_title},
+        {"Designer", settings_.three_mf_designer},
+        {"Description", settings_.three_mf_description},
+        {"Copyright", settings_.three_mf_copyright},
+        {"LicenseTerms", settings_.three_mf_license},
+        {"Rating", settings_.three_mf_rating}};
+    for (const auto& [name, value] : all) {
+      if (value.empty()) continue;
+      text_ +=
+          "\t<metadata name=\"" + std::string(name) + "\">" + xml_text(value) + "</metadata>\n";
+    }
+  }
+
   /// Adds one for each part that has a colour.
   void add_materials() {
-    append_start(text_, "basematerials", kMaterialsId);
+    const char* const element = is_color_group_ ? "m:colorgroup" : "basematerials";
+    append_start(text_, element, kMaterialsId);
     text_ += ">\n";
     for (const ExportedPart& part : parts_) {
       if (!part.color) continue;
       const std::string hex = hex_of(*part.color);
-      text_ += "\t\t\t<base name=\"" + hex + "\" displaycolor=\"" + hex + "\" />\n";
+      text_ += is_color_group_
+                   ? "\t\t\t<m:color color=\"" + hex + "\" />\n"
+                   : "\t\t\t<base name=\"" + hex + "\" displaycolor=\"" + hex + "\" />\n";
     }
-    text_ += "\t\t</basematerials>\n";
+    text_ += "\t\t</" + std::string(element) + ">\n";
   }
 
   void add_object(size_t index) {
@@ -143,6 +166,8 @@ class ModelText {
   }
 
   std::span<const ExportedPart> parts_;
+  const ExportSettings& settings_;
+  bool is_color_group_;
   bool has_colors_;
   size_t next_material_ = 0;
   std::string text_;
@@ -150,8 +175,8 @@ class ModelText {
 
 }  // namespace
 
-std::string three_mf_of(std::span<const ExportedPart> parts) {
-  const std::string model = ModelText(parts).take();
+std::string three_mf_of(std::span<const ExportedPart> parts, const ExportSettings& settings) {
+  const std::string model = ModelText(parts, settings).take();
   const std::array<ZippedFile, 3> files = {{{"[Content_Types].xml", kContentTypes},
                                             {"_rels/.rels", kRelationships},
                                             {"3D/3dmodel.model", model}}};

@@ -296,6 +296,47 @@ TEST(ModelWriters, Pdf) {
   EXPECT_THAT(text, HasSubstr("/Length " + std::to_string(end - begin) + " "));
 }
 
+TEST(ModelWriters, SettingsOfThreeMf) {
+  const std::vector<ExportedPart> parts = {{corner(), csgcore::Color{1, 0.5f, 0, 1}}};
+  ExportSettings settings;
+  settings.three_mf_unit = "inch";
+  settings.three_mf_material = "color";
+  settings.three_mf_title = "a & \"b\" <c";
+  settings.three_mf_rating = "5";
+  const std::string model = model_in(three_mf_of(parts, settings));
+  EXPECT_THAT(model, HasSubstr("\" xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/"
+                               "2015/02\" unit=\"inch\""));
+  EXPECT_THAT(model, HasSubstr("<metadata name=\"Title\">a &amp; &quot;b&quot; &lt;c</metadata>\n"
+                               "\t<metadata name=\"Rating\">5</metadata>\n"));
+  EXPECT_THAT(model, HasSubstr("<m:colorgroup id=\"1\">\n\t\t\t<m:color color=\"#FF8000FF\" />\n"
+                               "\t\t</m:colorgroup>\n"));
+  settings.three_mf_meta_data = false;
+  EXPECT_THAT(model_in(three_mf_of(parts, settings)), Not(HasSubstr("metadata")));
+}
+
+TEST(ModelWriters, SettingsOfDrawings) {
+  ExportSettings settings;
+  settings.svg = {.fill = false, .stroke_color = "\"red\"", .stroke_width = 0.25};
+  EXPECT_THAT(svg_of(frame(), settings),
+              HasSubstr("\" stroke=\"&quot;red&quot;\" fill=\"none\" stroke-width=\"0.25\"/>"));
+  settings.pdf_paper = "a6";
+  settings.pdf_orientation = "landscape";
+  settings.pdf = {.fill = true, .fill_color = "#ff0000", .stroke = false, .stroke_width = 25.4};
+  settings.pdf_author = "Zo\xC3\xAB (x)";
+  settings.pdf_subject = "a\\b";
+  const std::string pdf = pdf_of(frame(), settings);
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 420 298]"));
+  EXPECT_THAT(pdf, HasSubstr("stream\n0 0 0 RG 1 0 0 rg 72 w 0 J 0 j\n"));
+  EXPECT_THAT(pdf, HasSubstr("h\nf*\nendstream"));
+  EXPECT_THAT(pdf, HasSubstr("<< /Title (OpenSCAD Model) /Author (\xEF\xBB\xBFZo\xC3\xAB \\(x\\)) "
+                             "/Subject (a\\\\b) /Producer (scadray) >>"));
+  settings.pdf_orientation = "auto";
+  settings.pdf_meta_data = false;
+  EXPECT_THAT(pdf_of(frame(), settings), HasSubstr("/MediaBox [0 0 298 420]"));
+  EXPECT_THAT(pdf_of(frame(), settings), HasSubstr("<< /Producer (scadray) >>"));
+  EXPECT_THAT(pdf_of({{{0, 0}, {50, 0}, {0, 10}}}, settings), HasSubstr("/MediaBox [0 0 420 298]"));
+}
+
 TEST(ModelWriters, PdfOfALargeFigureHasALargePage) {
   EXPECT_THAT(pdf_of({{{0, 0}, {1000, 0}, {0, 10}}}), HasSubstr("/MediaBox [0 0 5726 842]"));
   EXPECT_THAT(pdf_of({{{0, 0}, {1e9, 0}, {0, 10}}}), Not(HasSubstr("e+")));
