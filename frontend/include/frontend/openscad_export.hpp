@@ -17,12 +17,12 @@ struct OpenScadExport {
   std::vector<std::string> files;  // files the design reads, as openscad names them
 };
 
-/// Runs openscad (the program that $OPENSCAD names, or else `openscad` on PATH) on a .scad file and
-/// returns the .csg that it writes. The result may be only a start of it, if that start shows that
-/// the .csg cannot be parsed (is_beyond_repair() in parser.hpp). `arguments` are passed on as they
-/// are. openscad reads `text` in place of the file, where there is one. `message` is called with
-/// each line that openscad prints; a very long line comes in pieces. `waiting` is called about ten
-/// times a second.
+/// Runs openscad (openscad_program()) on a .scad file and returns the .csg that it writes. The
+/// result may be only a start of it, if that start shows that the .csg cannot be parsed
+/// (is_beyond_repair() in parser.hpp). `arguments` are passed on, but for those that the program
+/// does not know. openscad reads `text` in place of the file, where there is one. `message` is
+/// called with each line that openscad prints; a very long line comes in pieces. `waiting` is
+/// called about ten times a second.
 ///
 /// Throws Error if openscad is missing, fails, reports an error (which it may do with exit code 0),
 /// or writes nothing. Throws Stopped (stop.hpp) as soon as `stop` is requested. In every case

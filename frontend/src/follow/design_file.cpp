@@ -34,7 +34,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   design.parse_ms = ms_since(parse_start);
   if (text.is_exported && options.wants_files && text.files.empty()) {
     throw Error(path, {}, "openscad does not say which files it reads",
-                "leave out -d, or check $OPENSCAD");
+                "leave out -d, or check $SCADRAY_OPENSCAD and $OPENSCAD");
   }
   design.import = beside(path, text, options.import);
   design.is_exported = text.is_exported;
@@ -60,16 +60,6 @@ std::string time_assignment(double time) {
   std::array<char, 32> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), time).ptr;
   return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
-
-/// Returns the .scad that shows a mesh or a drawing.
-std::string import_of(const std::string& path) {
-  std::string text = "import(\"";
-  for (const char c : std::filesystem::path(path).filename().string()) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c == '\n' ? "\\n" : std::string(1, c);  // a raw one is no part of a string
-  }
-  return text + "\");\n";
 }
 
 /// The most bytes of a text that may be a .scad's alone. Published designs have up to some 20 MB; a
@@ -195,7 +185,7 @@ std::optional<FileText> text_in_memory(const std::string& path, const std::stop_
   if (kind == DesignKind::kImported) {
     check_input(path);
     if (is_read_once(path)) throw Error(path, {}, "is no regular file", "check the file");
-    return FileText(import_of(path));
+    return FileText(import_of(std::filesystem::path(path).filename()));
   }
   if (kind != DesignKind::kEither && !is_read_once(path)) return std::nullopt;
   if (kind == DesignKind::kScad) check_input(path);

@@ -82,6 +82,15 @@ DesignKind kind_of(const std::string& path) {
   return is_importable(path) ? DesignKind::kImported : DesignKind::kEither;
 }
 
+std::string import_of(const std::string& name) {
+  std::string text = "import(\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c == '\n' ? "\\n" : std::string(1, c);  // a raw one is no part of a string
+  }
+  return text + "\");\n";
+}
+
 std::optional<language::EvaluationOptions> evaluation_options(
     const std::vector<std::string>& openscad_arguments, const std::string& path) {
   language::EvaluationOptions options;

@@ -25,6 +25,9 @@ enum class DesignKind : uint8_t {
 
 DesignKind kind_of(const std::string& path);
 
+/// Returns the .scad that shows a mesh or a drawing of that name.
+std::string import_of(const std::string& name);
+
 /// Returns OpenSCAD's command-line arguments as options of the own evaluator; nothing if one of
 /// them is for openscad alone: -m, unless the file is a mesh or a drawing, which misses no files.
 std::optional<language::EvaluationOptions> evaluation_options(

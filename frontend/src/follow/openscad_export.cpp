@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -31,16 +30,6 @@ namespace frontend {
 namespace {
 
 constexpr int kWait_ms = 100;  // how often `waiting` is called
-
-Error cannot_run(const std::string& program, int error_number) {
-  if (error_number == ENOENT) {
-    return Error("", {}, "a .scad file is exported by OpenSCAD, and " + program + " was not found",
-                 "install it, with: apt-get install openscad; or name it in $OPENSCAD; or give a "
-                 ".csg file");
-  }
-  return Error("", {}, program + " cannot be run: " + std::strerror(error_number),
-               "check $OPENSCAD and PATH");
-}
 
 /// OpenSCAD 2021.01 prints on standard output, before the .csg, the characters of a .scad that no
 /// token has: backslashes outside of strings, as in MCAD's fonts.scad. Makes them blanks; returns
@@ -143,14 +132,6 @@ class Listener {
   bool is_hopeless_ = false;
 };
 
-ChildProcess start(const ChildSetup& setup) {
-  try {
-    return ChildProcess(setup);
-  } catch (const std::system_error& error) {
-    throw cannot_run(setup.command[0], error.code().value());
-  }
-}
-
 }  // namespace
 
 OpenScadExport export_with_openscad(const std::string& scad_path,
@@ -166,18 +147,22 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   const MemoryFile rule;
   std::vector<std::string> command = {openscad_program(),    "-o", "-",
                                       "--export-format=csg", "-d", rule.path()};
-  command.insert(command.end(), arguments.begin(), arguments.end());
+  const std::vector<std::string> known =
+      known_to_openscad(arguments, [&](const std::string& line) { message({line}); });
+  command.insert(command.end(), known.begin(), known.end());
   command.push_back("--");  // a name may begin with a dash
   std::optional<MemoryFile> input;
   if (text) input.emplace(text->view());
   command.push_back(text ? "-" : scad_path);
 
   Pipe out, err;
-  ChildProcess openscad = start({.command = command,
-                                 .output = out.write_end(),
-                                 .errors = err.write_end(),
-                                 .kept = rule.descriptor(),
-                                 .input = input ? input->descriptor() : -1});
+  ChildProcess openscad =
+      start_openscad({.command = command,
+                      .output = out.write_end(),
+                      .errors = err.write_end(),
+                      .kept = rule.descriptor(),
+                      .input = input ? input->descriptor() : -1},
+                     "a .scad file is exported by OpenSCAD", "; or give a .csg file");
   out.close_write_end();
   err.close_write_end();
   OpenScadMessages messages(message);
