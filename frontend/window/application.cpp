@@ -96,7 +96,7 @@ bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
 
 Application::Application(const frontend::Options& options)
     : options_(options),
-      memory_(memory_path()),
+      memory_(memory_path(), options.resets_window),
       state_(options),
       window_(file_name(options.input) + " - scadray",
               remembered_placement(memory_, given_size(options)), *this),

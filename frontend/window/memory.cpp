@@ -162,9 +162,9 @@ std::string memory_path() {
   return (folder / "scadray" / "window").string();
 }
 
-Memory::Memory(std::string path) : path_(std::move(path)) {
+Memory::Memory(std::string path, bool forgets) : path_(std::move(path)), forgets_(forgets) {
   Contents contents = read_contents(path_);
-  values_ = std::move(contents.values);
+  if (!forgets_) values_ = std::move(contents.values);
   recent_ = std::move(contents.recent);
   is_only_window_ = take_lock();
 }
@@ -218,9 +218,10 @@ void Memory::touch(Clock::time_point now) { due_ = now + kSettled; }
 
 void Memory::write() {
   due_.reset();
-  if (path_.empty() || (changed_.empty() && opened_.empty())) return;
+  if (path_.empty() || (changed_.empty() && opened_.empty() && !forgets_)) return;
   Contents contents = read_contents(path_);
   const std::string before = text_of(contents);
+  if (std::exchange(forgets_, false)) contents.values.clear();
   for (auto& [name, value] : std::exchange(changed_, {})) contents.values[name] = value;
   const std::vector<std::string> opened = std::exchange(opened_, {});
   for (auto path = opened.rbegin(); path != opened.rend(); ++path) {

@@ -21,8 +21,8 @@ class Memory {
   using Values = std::map<std::string, std::string>;
 
   /// Reads the file at `path`; empty: there is none. Holds a lock as long as it lives if no other
-  /// window has it.
-  explicit Memory(std::string path);
+  /// window has it. `forgets`: all values that the file has are forgotten, but not the designs.
+  explicit Memory(std::string path, bool forgets = false);
   ~Memory();
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
@@ -55,6 +55,7 @@ class Memory {
   Values values_;  // when the window opened
   Values noted_;
   Values changed_;  // to be written
+  bool forgets_;    // the file's values, when it is written
   std::vector<std::string> recent_;
   std::vector<std::string> opened_;  // by this window, the newest first
   std::optional<Clock::time_point> due_;

@@ -114,7 +114,7 @@ void ModelExporter::make(const ModelOrder& order, const std::stop_token& stop,
   frontend::check_outputs_differ({&output, 1}, inputs);
 
   show("making the surface");
-  frontend::ModelExport model(design, tree, options.render.threads);
+  frontend::ModelExport model(design, tree, options.render.threads, options.export_settings);
   const frontend::PendingOutput file{order.path, frontend::bytes_of(model.encode(format))};
   add_warnings(order, model.warnings(), outcome);
   if (begin_writing(stop)) frontend::write_outputs({&file, 1});

@@ -73,6 +73,20 @@ TEST_F(MemoryTest, KeepsTheLatestDesignsOnce) {
               ElementsAre("/5", "/11", "/10", "/9", "/8", "/7", "/6", "/4", "/3", "/2"));
 }
 
+TEST_F(MemoryTest, ForgetsAllButTheDesignsWhereItIsTold) {
+  {
+    Memory memory(path());
+    for (const char* state : {"off", "on"}) memory.note({{"axes", state}}, now_);
+    memory.note_design("/a", now_);
+    memory.write();
+  }
+  Memory memory(path(), true);
+  EXPECT_EQ(memory.find("axes"), nullptr);
+  EXPECT_THAT(memory.recent(), ElementsAre("/a"));
+  memory.write();
+  EXPECT_EQ(folder_.read("scadray/window"), "recent=/a\n");
+}
+
 TEST_F(MemoryTest, ADamagedFileCostsNothing) {
   std::filesystem::create_directories(folder_ / "scadray");
   const std::string tail = "axes=on\nrecent=relative\nrecent=/a\n";

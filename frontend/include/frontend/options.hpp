@@ -8,6 +8,7 @@
 
 #include "frontend/camera.hpp"
 #include "frontend/design_file_options.hpp"
+#include "frontend/export_settings.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/model_format.hpp"
@@ -34,8 +35,14 @@ struct ModelOutput {
   ModelFormat format;
 };
 
+/// An output in a format that scadray leaves to the installed openscad.
+struct HandedOutput {
+  std::string path;    // "-": standard output
+  std::string format;  // a word of --export-format
+};
+
 /// The action that a command line asks for.
-enum class Action : uint8_t { kDraw, kOpenWindow, kHelp, kVersion, kInfo };
+enum class Action : uint8_t { kDraw, kOpenWindow, kHelp, kHelpExport, kVersion, kInfo };
 
 /// The options that are given of those whose values a window remembers from run to run.
 struct GivenLook {
@@ -51,11 +58,16 @@ struct Options {
   Action action = Action::kDraw;
   std::string input;                        // "-": standard input
   std::vector<std::string> further_inputs;  // kOpenWindow: each of them gets a window of its own
-  /// kDraw: these, `texts` and `models` are at least one; one of all may be "-".
+  /// kDraw: these, `handed`, `texts` and `models` are at least one; one of all may be "-".
   std::vector<Output> outputs;
-  std::vector<TextOutput> texts;    // written first
-  std::vector<ModelOutput> models;  // written before the pictures
-  double model_tolerance = 0;       // ImportOptions::tolerance of the models
+  std::vector<HandedOutput> handed;  // written first
+  std::vector<TextOutput> texts;     // written next
+  std::vector<ModelOutput> models;   // written before the pictures
+  double model_tolerance = 0;        // ImportOptions::tolerance of the models
+  ExportSettings export_settings;    // of the models
+  SummaryParts summary;
+  std::string summary_path;  // of the summary, as JSON; "-": standard output; empty: as text, on
+                             // standard error
   Evaluator evaluator = kDefaultEvaluator;
   std::string stats_path;  // empty: none; "-": standard output
   std::string editor;      // --editor; empty: the environment tells it
@@ -63,14 +75,19 @@ struct Options {
   std::string rule_path;   // the rule for make that lists the outputs' sources; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // --imgsize is given
+  bool resets_window = false;   // the window forgets what it remembers, but the designs
   GivenLook given;
   Overlays overlays;
   ImportOptions import;
   RenderSettings render;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
+  std::vector<std::string> handed_arguments;    // OpenSCAD's, for `handed`
   std::vector<std::string> warnings;            // ignored options, without the word "warning"
   uint32_t frames = 0;  // frames of an animation, each in files of its own; 0: a single picture
-  bool turns = false;   // the camera goes once around the design during them
+  /// The frames that are drawn: first_frame <= i < end_frame.
+  uint32_t first_frame = 0;
+  uint32_t end_frame = 1;
+  bool turns = false;  // the camera goes once around the design during them
   bool quiet = false;
   bool prints_echoes = false;      // what the design echoes goes to standard output
   bool has_hard_warnings = false;  // a warning of the design ends the run

@@ -12,4 +12,15 @@ enum class TextKind : uint8_t {
   kParam,  // what its user can choose, as JSON
 };
 
+/// What --summary tells of a design's solid or plane figure.
+struct SummaryParts {
+  bool cache = false;
+  bool time = false;
+  bool camera = false;
+  bool geometry = false;
+  bool bounding_box = false;
+  bool area = false;
+  bool any() const { return cache || time || camera || geometry || bounding_box || area; }
+};
+
 }  // namespace frontend

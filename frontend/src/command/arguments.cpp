@@ -1,6 +1,8 @@
 #include "command/arguments.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include "frontend/error.hpp"
 
@@ -119,6 +121,32 @@ std::vector<std::string> openscad_arguments_of(const Arguments& arguments) {
       result.push_back("--" + option + "=" + value);
     } else if (option == "hardwarnings") {
       result.push_back("--hardwarnings");
+    }
+  });
+  return result;
+}
+
+std::vector<std::string> handed_arguments_of(const Arguments& arguments, bool has_summary_file) {
+  constexpr std::string_view kOwnAffair[] = {
+      "o", "s", "x", "export-format", "d", "animate", "animate_sharding"};
+  const auto is_among = [](const std::string& name, const auto& names) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  };
+  std::vector<std::string> result;
+  arguments.for_each([&](const std::string& option, const std::string& value) {
+    if (is_among(option, kOwnAffair) || (option == "summary-file" && !has_summary_file)) return;
+    const auto rows = openscad_options();
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const OptionRow& candidate) {
+      return std::string_view(candidate.names)
+                 .substr(0, std::string_view(candidate.names).find(',')) == option;
+    });
+    if (row == rows.end()) return;
+    if (option.size() == 1 && option != "O") {
+      result.insert(result.end(), {"-" + option, value});
+    } else if (!value.empty()) {
+      result.push_back("--" + option + "=" + value);
+    } else if (row->takes == Takes::kNothing || row->takes == Takes::kOptionalText) {
+      result.push_back("--" + option);
     }
   });
   return result;

@@ -123,9 +123,13 @@ std::string read_camera(const Arguments& arguments, CameraOptions& camera);
 RendererKind read_renderer(const Arguments& arguments);
 /// Returns the version of the language, which the environment sets where the option does not.
 language::LanguageVersion read_language(const Arguments& arguments);
-/// Returns the options that only openscad can follow, as they are handed on to it: -D, -p, -P, -m,
-/// --hardwarnings, --check-parameters, --check-parameter-ranges.
+/// Returns the options of an evaluation, as they are handed on to openscad: -D, -p, -P, -m,
+/// --hardwarnings, --check-parameters, --check-parameter-ranges, --enable, --trace-….
 std::vector<std::string> openscad_arguments_of(const Arguments& arguments);
+
+/// Returns those of OpenSCAD's options that are handed on to it where it writes an output: all but
+/// those of outputs and frames, and --summary-file only where it is openscad that writes it.
+std::vector<std::string> handed_arguments_of(const Arguments& arguments, bool has_summary_file);
 
 /// Reads --leaf-primitives, --threshold and --threads; without them, `render` keeps its values.
 void read_cells_and_threads(const Arguments& arguments, RenderSettings& render);

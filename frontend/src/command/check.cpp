@@ -69,7 +69,9 @@ Result by_openscad(const std::string& file, const std::vector<std::string>& opti
   const WorkFolder folder;
   const std::string tree = folder.file("tree.csg"), messages = folder.file("messages");
   std::vector<std::string> command = {openscad_program(), "-o", tree};
-  command.insert(command.end(), options.begin(), options.end());
+  const std::vector<std::string> known =
+      known_to_openscad(options, [](const std::string& line) { print_text(stderr, line + "\n"); });
+  command.insert(command.end(), known.begin(), known.end());
   command.insert(command.end(), {"--", file});
   std::FILE* const errors = std::fopen(messages.c_str(), "we");
   if (errors == nullptr) throw Error(messages, {}, "cannot be written", "check $TMPDIR");
@@ -83,14 +85,8 @@ Result by_openscad(const std::string& file, const std::vector<std::string>& opti
 /// Returns what `openscad --version` prints behind "version ": "2021.01"; empty if it is not
 /// understood.
 std::string openscad_version() {
-  const WorkFolder folder;
-  const std::string path = folder.file("version");
-  std::FILE* const said = std::fopen(path.c_str(), "we");
-  if (said == nullptr) throw Error(path, {}, "cannot be written", "check $TMPDIR");
-  ChildProcess({{openscad_program(), "--version"}, fileno(said), fileno(said)}).wait();
-  std::fclose(said);
   constexpr std::string_view kWord = "version ";
-  const std::string text = text_of(path);
+  const std::string text = said_by_openscad({"--version"});
   const std::size_t found = text.find(kWord);
   if (found == std::string::npos) return {};
   const std::size_t begin = found + kWord.size();

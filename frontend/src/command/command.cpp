@@ -9,8 +9,11 @@
 
 #include "base/elapsed.hpp"
 #include "command/check.hpp"
+#include "command/export_option.hpp"
+#include "command/handover.hpp"
 #include "command/models.hpp"
 #include "command/outputs.hpp"
+#include "command/texts.hpp"
 #include "csgcore/workers.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/design_version.hpp"
@@ -63,8 +66,7 @@ class Run {
     check_outputs();
     for (const std::string& warning : options_.warnings) say("warning: " + warning);
     std::vector<PendingOutput> outputs;
-    draw_frame(outputs);
-    for (frame_ = 1; frame_ < options_.frames; ++frame_) {
+    for (frame_ = options_.first_frame; frame_ < options_.end_frame; ++frame_) {
       start_ = Clock::now();
       draw_frame(outputs);
     }
@@ -75,7 +77,7 @@ class Run {
       outputs.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
     }
     progress_.clear();
-    check_outputs_differ(named_outputs(), named_inputs());  // all inputs are known now
+    check_outputs_differ(named_outputs(options_), named_inputs());  // all inputs are known now
     write_outputs(outputs);
   }
 
@@ -89,7 +91,7 @@ class Run {
   }
 
   void draw_frame(std::vector<PendingOutput>& outputs) {
-    if (frame_ == 0 || is_exported_) {
+    if (frame_ == options_.first_frame || is_exported_) {
       design_ = import();
     }
     const CameraOptions camera_options = with_camera_of(design_camera_, options_.camera);
@@ -103,13 +105,6 @@ class Run {
     encode(image, view, camera, outputs);
   }
 
-  std::vector<NamedPath> named_outputs() const {
-    std::vector<NamedPath> outputs = output_paths(options_);
-    if (!options_.stats_path.empty()) outputs.push_back({"--stats", options_.stats_path});
-    if (!options_.rule_path.empty()) outputs.push_back({"-d", options_.rule_path});
-    return outputs;
-  }
-
   /// Returns the inputs that are known by now.
   std::vector<NamedPath> named_inputs() const {
     std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
@@ -119,9 +114,7 @@ class Run {
   }
 
   void check_outputs() const {
-    const std::vector<NamedPath> outputs = named_outputs();
-    for (const NamedPath& output : outputs) check_output(output.path);
-    check_outputs_differ(outputs, named_inputs());
+    check_all_outputs(options_);
     if (!options_.rule_path.empty()) rule_of(options_, {options_.input});
   }
 
@@ -272,7 +265,7 @@ class Run {
 void print_info() {
   std::printf("scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
               SCADRAY_VERSION, SCADRAY_RENDERERS,
-              "scadray itself, or openscad (on PATH, or $OPENSCAD)");
+              "scadray itself, or openscad (on PATH, or $SCADRAY_OPENSCAD)");
 }
 
 /// Runs scadray-gl in place of this program. Returns if that is not there and the CPU may draw.
@@ -291,11 +284,15 @@ void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind
 /// a pipe.
 ExitCode draw(const Options& options, const Renderer& renderer) {
   std::optional<FileText> text;
-  if (!options.texts.empty() || !options.models.empty() || options.frames > 0) {
+  if (options.first_frame == options.end_frame) return ExitCode::kDone;
+  const bool has_summary = options.summary.any() || !options.summary_path.empty();
+  const bool is_model_made = !options.models.empty() || (has_summary && !options.outputs.empty());
+  if (!options.handed.empty() || !options.texts.empty() || is_model_made || options.frames > 0) {
     text = text_in_memory(options.input);
   }
+  if (const ExitCode code = write_handed(options, text); code != ExitCode::kDone) return code;
   if (const ExitCode code = write_texts(options, text); code != ExitCode::kDone) return code;
-  if (!options.models.empty()) write_models(options, text);
+  if (is_model_made) write_models(options, text);
   if (!options.outputs.empty()) Run(options, text, renderer).execute();
   return ExitCode::kDone;
 }
@@ -318,6 +315,9 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
   switch (options.action) {
     case Action::kHelp:
       std::fputs(help_text().c_str(), stdout);
+      break;
+    case Action::kHelpExport:
+      std::fputs(export_settings_text().c_str(), stdout);
       break;
     case Action::kVersion:
       std::printf("scadray version %s\n", SCADRAY_VERSION);

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/elapsed.hpp"
 #include "command/outputs.hpp"
+#include "command/summary.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/design_version.hpp"
 #include "frontend/error.hpp"
@@ -24,33 +26,34 @@ class ModelRun {
       : options_(options), text_(text), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
 
   void execute() {
-    const std::vector<NamedPath> outputs = named_outputs();
-    for (const NamedPath& output : outputs) check_output(output.path);
-    check_outputs_differ(outputs, design_inputs(options_.input, options_.openscad_arguments));
+    check_all_outputs(options_);
     if (options_.outputs.empty()) {  // a picture's run says them, too
       for (const std::string& warning : options_.warnings) say("warning: " + warning);
     }
-    for (uint32_t frame = 0; frame < frame_count(options_); ++frame) export_frame(frame);
+    for (uint32_t frame = options_.first_frame; frame < options_.end_frame; ++frame) {
+      export_frame(frame);
+    }
+    if (!options_.summary_path.empty()) {
+      outputs_.push_back(
+          {options_.summary_path, bytes_of(summary_json(options_.summary, summary_))});
+    }
     if (!options_.rule_path.empty() && options_.outputs.empty()) {
       outputs_.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
     }
     progress_.clear();
     std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
     for (const std::string& file : files_) inputs.push_back({"a file of the design", file});
-    check_outputs_differ(outputs, inputs);
+    check_outputs_differ(named_outputs(options_), inputs);
     write_outputs(outputs_);
   }
 
  private:
-  std::vector<NamedPath> named_outputs() const {
-    std::vector<NamedPath> outputs = output_paths(options_);
-    if (!options_.rule_path.empty()) outputs.push_back({"-d", options_.rule_path});
-    return outputs;
-  }
+  /// Whether a summary is all that is asked for: then the run of the pictures has the messages.
+  bool is_silent() const { return options_.quiet || options_.models.empty(); }
 
   /// Writes a line to stderr, unless -q is given.
   void say(const std::string& text) {
-    if (options_.quiet) return;
+    if (is_silent()) return;
     progress_.clear();
     print_text(stderr, text + "\n");
   }
@@ -73,6 +76,7 @@ class ModelRun {
     reading.inputs.time = frame_time(options_, frame);
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
+      if (options_.models.empty()) return;
       if (options_.prints_echoes && is_echo(line)) {
         print_text(stdout, line + "\n");
       } else if (!options_.quiet || line.starts_with("ERROR")) {
@@ -84,7 +88,19 @@ class ModelRun {
     return read_design(options_.input, reading);
   }
 
+  /// Notes the figures of the frame's design, and shows them unless they go to a file.
+  void summarize(ModelExport& model, const DesignCamera& camera, Clock::time_point start) {
+    summary_.camera = with_camera_of(camera, options_.camera).camera.value_or(Camera{});
+    summary_.time_ms = ms_since(start);
+    const SummaryParts& parts = options_.summary;
+    if (parts.geometry || parts.bounding_box || parts.area) summary_.figures = model.figures();
+    if (!options_.summary_path.empty() || options_.quiet) return;
+    progress_.clear();
+    print_text(stderr, summary_text(parts, summary_));
+  }
+
   void export_frame(uint32_t frame) {
+    const Clock::time_point start = Clock::now();
     DesignFile file = read(frame);
     progress_.update("importing", -1);
     const ImportedDesign design = import_design(file);
@@ -95,7 +111,7 @@ class ModelRun {
         if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
       }
     }
-    ModelExport model(design, file.tree, options_.render.threads);
+    ModelExport model(design, file.tree, options_.render.threads, options_.export_settings);
     for (const ModelOutput& output : options_.models) model.check(output.format);
     std::size_t told = 0;
     for (const ModelOutput& output : options_.models) {
@@ -104,6 +120,7 @@ class ModelRun {
       if (told == 0) warn(model.warnings());
       told = model.warnings().size();
     }
+    summarize(model, file.camera, start);
   }
 
   const Options& options_;
@@ -111,6 +128,7 @@ class ModelRun {
   ProgressLine progress_;
   std::vector<std::string> files_;  // that the design was read from, for all frames
   std::vector<PendingOutput> outputs_;
+  Summary summary_;  // of the last frame
 };
 
 }  // namespace

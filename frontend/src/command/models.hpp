@@ -8,10 +8,10 @@
 
 namespace frontend {
 
-/// Writes options.models, all or none, and the rule for make where there are no pictures. The
-/// design is evaluated for them by itself, as for OpenSCAD's final render. `text` is what
-/// text_in_memory() has given of the design. Throws Error, in OpenSCAD's words where the design has
-/// nothing that a format holds.
+/// Writes options.models, all or none, the summary, and the rule for make where there are no
+/// pictures. The design is evaluated for them by itself, as for OpenSCAD's final render. `text` is
+/// what text_in_memory() has given of the design. Throws Error, in OpenSCAD's words where the
+/// design has nothing that a format holds.
 void write_models(const Options& options, const std::optional<FileText>& text);
 
 }  // namespace frontend

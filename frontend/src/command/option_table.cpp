@@ -15,6 +15,13 @@ std::vector<std::string> format_names() {
   std::vector<std::string> names = names_of<kFormats>();
   for (const auto& word : kTextKinds) names.emplace_back(word.first);
   for (const auto& word : kModelFormats) names.emplace_back(word.first);
+  names.insert(names.end(), std::begin(kHandedFormats), std::end(kHandedFormats));
+  return names;
+}
+
+std::vector<std::string> summary_names() {
+  std::vector<std::string> names = names_of<kSummaryParts>();
+  names.emplace_back(kWholeSummary);
   return names;
 }
 
@@ -26,14 +33,18 @@ constexpr OptionRow kOpenScadOptions[] = {
     {"o,o", Takes::kTexts, "OUT",
      "what to write: a picture (.png, .exr); the solid (.stl, .off, .obj, .3mf, .amf) or the plane "
      "figure (.svg, .dxf, .pdf); the evaluated design's tree (.csg) or messages (.echo), or its "
-     "parameters (.param); - is "
-     "standard output, with --export-format; may be given more than once",
+     "parameters (.param); or what the installed openscad writes (.wrl, .nef3, .ast, .term, .pov); "
+     "- "
+     "is standard output, with --export-format; may be given more than once",
      kAnyFile},
     {"export-format",
      Takes::kText,
      "FORMAT",
      "the format, whatever OUT's suffix is: that of a suffix, or asciistl or binstl (.stl's)",
      {Completion::Kind::kWord, format_names}},
+    {"O,O", Takes::kTexts, "SETTING",
+     "a setting of exported files, SECTION/KEY=VALUE; may be given more than once"},
+    {"help-export", Takes::kNothing, "", "print the settings that -O takes"},
     {"imgsize", Takes::kText, "W,H", "size of the picture in pixels; default 512,512"},
     {"camera", Takes::kText, "NUMBERS",
      "translation x,y,z, rotation x,y,z in degrees, distance; or eye x,y,z, centre x,y,z; default: "
@@ -50,6 +61,8 @@ constexpr OptionRow kOpenScadOptions[] = {
     {"animate", Takes::kText, "N",
      "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name; at most 4096 "
      "pictures in all"},
+    {"animate_sharding", Takes::kText, "I/N",
+     "the I-th of N parts of the frames of --animate alone"},
     kVariableOption,
     kParameterFileOption,
     kParameterSetOption,
@@ -65,6 +78,13 @@ constexpr OptionRow kOpenScadOptions[] = {
      "the lines that tell the calls around an error of a 2026 design, at most; default 12"},
     {"trace-usermodule-parameters", Takes::kText, "BOOL",
      "have the parameters of modules among these lines", kOneOf<kTruthValues>},
+    {"summary",
+     Takes::kTexts,
+     "WHAT",
+     "tell figures of the solid or plane figure on standard error; may be given more than once:",
+     {Completion::Kind::kWord, summary_names}},
+    {"summary-file", Takes::kText, "FILE",
+     "write the summary to FILE as JSON; - is standard output", kAnyFile},
     {"quiet,q", Takes::kNothing, "", "errors only"},
     {"info", Takes::kNothing, "",
      "log the renderer that is chosen; without FILE: describe this program"},
@@ -74,10 +94,14 @@ constexpr OptionRow kOpenScadOptions[] = {
      "draw the solid alone: without color(), # and %; HOW has no effect"},
     {"preview", Takes::kOptionalText, "HOW",
      "draw with color(), # and %, the default; =throwntogether: every part whole, no operation"},
+    {"backend", Takes::kText, "B", "accepted, without effect: there is one", kOneOf<kBackends>},
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
     {"enable", Takes::kTexts, "FEATURE",
      "lazy-union, or all: loops and blocks of a 2026 design make no groups; passed on to openscad"},
+    {"reset-window-settings", Takes::kNothing, "", "have the window forget its settings"},
+    {"trust-python", Takes::kNothing, "", "accepted, without effect: Python is not run"},
+    {"python-module", Takes::kText, "MODULE", "accepted, without effect: Python is not run"},
     {"s,s", Takes::kText, "OUT", "the same as -o", kAnyFile},
     {"x,x", Takes::kText, "OUT", "the same as -o", kAnyFile},
 };

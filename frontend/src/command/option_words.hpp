@@ -32,6 +32,18 @@ constexpr Word<ModelFormat> kModelFormats[] = {
     {"off", ModelFormat::kOff}, {"obj", ModelFormat::kObj},    {"3mf", ModelFormat::k3mf},
     {"amf", ModelFormat::kAmf}, {"svg", ModelFormat::kSvg},    {"dxf", ModelFormat::kDxf},
     {"pdf", ModelFormat::kPdf}};
+/// Formats that scadray leaves to openscad.
+constexpr const char* kHandedFormats[] = {"wrl", "nef3", "nefdbg", "ast", "term", "pov"};
+/// OpenSCAD's, which it reads in any case.
+constexpr Word<bool> kBackends[] = {{"manifold", true}, {"cgal", false}};
+constexpr const char* kWholeSummary = "all";
+constexpr Word<bool SummaryParts::*> kSummaryParts[] = {
+    {"cache", &SummaryParts::cache},
+    {"time", &SummaryParts::time},
+    {"camera", &SummaryParts::camera},
+    {"geometry", &SummaryParts::geometry},
+    {"bounding-box", &SummaryParts::bounding_box},
+    {"area", &SummaryParts::area}};
 constexpr Word<Evaluator> kEvaluators[] = {{"own", Evaluator::kOwn},
                                            {"openscad", Evaluator::kOpenScad}};
 constexpr Word<language::LanguageVersion> kLanguages[] = {

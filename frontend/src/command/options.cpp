@@ -8,6 +8,7 @@
 
 #include "base/lower_case.hpp"
 #include "command/arguments.hpp"
+#include "command/export_option.hpp"
 #include "command/option_row.hpp"
 #include "command/option_words.hpp"
 #include "frontend/error.hpp"
@@ -100,7 +101,7 @@ void read_tolerance(const Arguments& arguments, Options& options) {
   options.model_tolerance = arguments.number<double>(
       "tolerance", std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), 0,
       "give a length above 0, in the design's units");
-  const bool is_window = options.outputs.empty() && options.texts.empty();  // which may export
+  const bool is_window = options.outputs.empty() && options.texts.empty() && options.handed.empty();
   if (arguments.has("tolerance") && options.models.empty() && !is_window) {
     options.warnings.push_back("--tolerance has no effect without -o of a solid or plane figure");
   }
@@ -166,7 +167,8 @@ PictureFormat picture_format(const std::string& path) {
     throw Error(
         path, {}, "is no picture",
         "end it in .png or .exr, or in what a design is exported to (.stl, .off, .obj, .3mf, "
-        ".amf, .svg, .dxf, .pdf, .csg, .echo, .param), or give --export-format");
+        ".amf, .svg, .dxf, .pdf, .csg, .echo, .param; by openscad .wrl, .nef3, .ast, .term, .pov), "
+        "or give --export-format");
   }
   return *format;
 }
@@ -183,6 +185,11 @@ ModelFormat model_format(const std::string& path) {
 
 namespace {
 
+bool is_handed(const std::string& format) {
+  return std::find(std::begin(kHandedFormats), std::end(kHandedFormats), format) !=
+         std::end(kHandedFormats);
+}
+
 /// Adds an output in the given format, or else in that of its suffix.
 void add_output(const std::string& path, const std::string& given, Options& options) {
   const std::string word = given.empty() ? suffix_of(path) : given;
@@ -190,46 +197,93 @@ void add_output(const std::string& path, const std::string& given, Options& opti
     options.texts.push_back({path, *kind});
   } else if (const ModelFormat* model = find_word(kModelFormats, word)) {
     options.models.push_back({path, *model});
+  } else if (is_handed(word)) {
+    options.handed.push_back({path, word});
   } else {
     const PictureFormat* format = find_word(kFormats, word);
     options.outputs.push_back({path, format ? *format : picture_format(path)});
   }
 }
 
-/// Throws Error if so many outputs are more than kMaxPictures over all frames.
-void check_count(const std::string& what, std::size_t outputs, uint32_t frames) {
+/// Throws Error if so many outputs are more than kMaxPictures over all frames that are drawn.
+void check_count(const std::string& what, std::size_t outputs, const Options& options) {
+  const uint32_t frames = options.frames > 0 ? options.end_frame - options.first_frame : 0;
   if (outputs * std::max(frames, 1u) <= kMaxPictures) return;
   const std::string most = std::to_string(kMaxPictures);
   fail("more than " + most + " " + what + ": " + std::to_string(outputs) + " of -o" +
            (frames > 0 ? ", for each of " + std::to_string(frames) + " frames" : ""),
        frames > 0 && outputs <= kMaxPictures
-           ? "give --animate at most " + std::to_string(kMaxPictures / outputs) + ", or fewer -o"
+           ? "give --animate at most " + std::to_string(kMaxPictures / outputs) +
+                 ", --animate_sharding, or fewer -o"
            : "give -o at most " + most + " times");
+}
+
+/// Reads --animate_sharding: as in OpenSCAD, shard I of N has the frames from (I - 1) F / N to
+/// I F / N, both rounded down.
+void read_shard(const Arguments& arguments, Options& options) {
+  options.end_frame = std::max(options.frames, 1u);
+  if (!arguments.has("animate_sharding")) return;
+  const std::string& value = arguments.text("animate_sharding");
+  const std::size_t slash = value.find('/');
+  const auto index = parse_number<uint32_t>(value.substr(0, slash));
+  const auto count =
+      slash == std::string::npos ? std::nullopt : parse_number<uint32_t>(value.substr(slash + 1));
+  if (!index || !count || *index < 1 || *index > *count) {
+    bad_value("animate_sharding", value, "give I/N, two whole numbers with 1 <= I <= N");
+  }
+  if (options.frames == 0) return;
+  const auto begin_of = [&](uint64_t shard) {
+    return static_cast<uint32_t>(shard * options.frames / *count);
+  };
+  options.first_frame = begin_of(*index - 1);
+  options.end_frame = begin_of(*index);
+}
+
+/// Reads --summary and --summary-file.
+void read_summary(const Arguments& arguments, Options& options) {
+  for (const std::string& name : arguments.texts("summary")) {
+    const bool is_all = name == kWholeSummary;
+    if (!is_all && !find_word(kSummaryParts, name)) {
+      bad_value("summary", name,
+                "give " + std::string(kWholeSummary) + ", " + listed(kSummaryParts));
+    }
+    for (const auto& [word, part] : kSummaryParts) {
+      if (is_all || name == word) options.summary.*part = true;
+    }
+  }
+  options.summary_path = arguments.text_or_empty("summary-file");
 }
 
 void read_outputs(const Arguments& arguments, Options& options) {
   const std::string given = lower_case(arguments.text_or_empty("export-format"));
   if (!given.empty() && !find_word(kFormats, given) && !find_word(kTextKinds, given) &&
-      !find_word(kModelFormats, given)) {
-    bad_value(
-        "export-format", arguments.text("export-format"),
-        "give " + listed(kFormats) + "; " + listed(kTextKinds) + "; " + listed(kModelFormats));
+      !find_word(kModelFormats, given) && !is_handed(given)) {
+    std::string handed;
+    for (const char* format : kHandedFormats)
+      handed += (handed.empty() ? "" : ", ") + std::string(format);
+    bad_value("export-format", arguments.text("export-format"),
+              "give " + listed(kFormats) + "; " + listed(kTextKinds) + "; " +
+                  listed(kModelFormats) + "; or, by openscad, " + handed);
   }
   arguments.for_each([&](const std::string& option, const std::string& value) {
     if (option == "o" || option == "s" || option == "x") add_output(value, given, options);
   });
   if (arguments.has("stats")) options.stats_path = arguments.text("stats");
   if (arguments.has("d")) options.rule_path = arguments.text("d");
-  const auto is_stdout = [](const auto& output) { return output.path == "-"; };
-  const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(), is_stdout) +
-                         std::count_if(options.texts.begin(), options.texts.end(), is_stdout) +
-                         std::count_if(options.models.begin(), options.models.end(), is_stdout);
-  if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") + options.prints_echoes >
+  const auto to_stdout_of = [](const auto& outputs) {
+    return std::count_if(outputs.begin(), outputs.end(),
+                         [](const auto& output) { return output.path == "-"; });
+  };
+  const auto to_stdout = to_stdout_of(options.outputs) + to_stdout_of(options.texts) +
+                         to_stdout_of(options.models) + to_stdout_of(options.handed);
+  if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") +
+          (options.summary_path == "-") + options.prints_echoes >
       1) {
     fail("more than one output goes to standard output", "give all but one a file");
   }
-  static_assert(kMaxPictures <= 99999, "a frame's number has five digits");
-  options.frames = arguments.number<uint32_t>("animate", 0, kMaxPictures, 0);
+  constexpr uint32_t kMostFrames = 99999;  // a frame's number has five digits
+  options.frames = arguments.number<uint32_t>("animate", 0, kMostFrames, 0);
+  read_shard(arguments, options);
   options.turns = arguments.has("turn");
   if (options.turns && options.frames == 0) {
     fail("--turn without --animate", "give the number of pictures, --animate=36 for example");
@@ -237,8 +291,9 @@ void read_outputs(const Arguments& arguments, Options& options) {
   if (options.frames > 0 && to_stdout > 0) {
     fail("--animate does not go to standard output", "give -o a file's name");
   }
-  check_count("pictures", options.outputs.size(), options.frames);
-  check_count("models", options.models.size(), options.frames);
+  check_count("pictures", options.outputs.size(), options);
+  check_count("models", options.models.size(), options);
+  check_count("texts", options.texts.size() + options.handed.size(), options);
 }
 
 /// Throws Error if there are several designs, unless each can have a window of its own.
@@ -296,7 +351,7 @@ void leave_out_crosshairs(Options& options) {
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
-  constexpr const char* kNeverUsed[] = {"csglimit", "debug"};
+  constexpr const char* kNeverUsed[] = {"csglimit", "debug", "trust-python", "python-module"};
   constexpr const char* kForScad[] = {
       "D", "p", "P", "m", "check-parameters", "check-parameter-ranges"};
   const auto given = [&arguments](std::span<const char* const> names) {
@@ -311,7 +366,8 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
     options.warnings.push_back("without effect in this version: " + list);
   }
   if (options.action == Action::kOpenWindow) {
-    constexpr const char* kForPictures[] = {"d", "animate", "export-format"};
+    constexpr const char* kForPictures[] = {
+        "d", "animate", "animate_sharding", "export-format", "summary", "summary-file"};
     if (const std::string list = given(kForPictures); !list.empty()) {
       options.warnings.push_back("without effect in a window, which needs no -o: " + list);
     }
@@ -343,9 +399,19 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   }
 }
 
+/// Throws Error for a --backend that OpenSCAD has not; there is no other use of it.
+void read_backend(const Arguments& arguments) {
+  if (!arguments.has("backend")) return;
+  const std::string& value = arguments.text("backend");
+  if (!find_word(kBackends, lower_case(value))) {
+    bad_value("backend", value, "give " + listed(kBackends));
+  }
+}
+
 /// The action of the options that need no design.
 std::optional<Action> action_without_file(const Arguments& arguments) {
   if (arguments.has("help")) return Action::kHelp;
+  if (arguments.has("help-export")) return Action::kHelpExport;
   if (arguments.has("version")) return Action::kVersion;
   if (arguments.has("info") && !arguments.has("file")) return Action::kInfo;
   return std::nullopt;
@@ -383,10 +449,17 @@ Options parse_options(const std::vector<std::string>& words) {
   if (!camera_warning.empty()) options.warnings.push_back(camera_warning);
   read_facets(arguments, options.import);
   read_render(arguments, options.render);
+  read_summary(arguments, options);
   read_outputs(arguments, options);
+  read_backend(arguments);
+  for (const std::string& setting : arguments.texts("O")) {
+    const std::string fault = read_export_setting(setting, options.export_settings);
+    if (!fault.empty()) options.warnings.push_back(fault);
+  }
   read_tolerance(arguments, options);
   read_view(arguments, options);
-  if (options.outputs.empty() && options.texts.empty() && options.models.empty()) {
+  if (options.outputs.empty() && options.texts.empty() && options.models.empty() &&
+      options.handed.empty()) {
     options.action = Action::kOpenWindow;
     if (!options.given.shading) options.render.shading = Shading::kStudio;
   }
@@ -394,6 +467,9 @@ Options parse_options(const std::vector<std::string>& words) {
   check_inputs(options);
   leave_out_crosshairs(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
+  options.handed_arguments =
+      handed_arguments_of(arguments, options.models.empty() && options.outputs.empty());
+  options.resets_window = arguments.has("reset-window-settings");
   options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
   options.import.language = read_language(arguments);
   options.has_hard_warnings = arguments.has("hardwarnings");

@@ -1,5 +1,5 @@
-// The outputs of the command: their names, frame by frame, the rule for make that has them as
-// targets, and what `openscad -o` writes of a design as text.
+// The outputs of the command: their names, frame by frame, and the rule for make that has them as
+// targets.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "frontend/file_text.hpp"
 #include "frontend/files.hpp"
 #include "frontend/options.hpp"
-#include "frontend/run_program.hpp"
+#include "frontend/text_kind.hpp"
 
 namespace frontend {
 
-/// Returns how many times the design is evaluated: for each frame of an animation, or once.
-uint32_t frame_count(const Options& options);
+/// Returns the kind's word of --export-format.
+const char* word_of(TextKind kind);
 
 /// Returns the $t of a frame; nothing without an animation.
 std::optional<double> frame_time(const Options& options, uint32_t frame);
@@ -25,18 +24,20 @@ std::optional<double> frame_time(const Options& options, uint32_t frame);
 std::string path_of(const Output& output, const Options& options, uint32_t frame);
 std::string path_of(const ModelOutput& output, const Options& options, uint32_t frame);
 std::string path_of(const TextOutput& output, const Options& options, uint32_t frame);
+std::string path_of(const HandedOutput& output, const Options& options, uint32_t frame);
 
-/// Returns the paths of all texts, models and pictures, with their role for messages.
-std::vector<NamedPath> output_paths(const Options& options);
+/// Returns the line that begins the messages of each frame of an animation; empty if the format is
+/// not that of messages, or without an animation.
+std::string exporting_line(const std::string& format, const Options& options);
+
+/// Returns the paths of all files that a run writes, with their role for messages.
+std::vector<NamedPath> named_outputs(const Options& options);
+
+/// Throws Error if an output cannot be written, or is another one or the design.
+void check_all_outputs(const Options& options);
 
 /// Returns the rule for make: all outputs depend on the files. Throws Error for a name that no rule
 /// can contain.
 std::string rule_of(const Options& options, std::vector<std::string> files);
-
-/// Writes options.texts, the design's tree or its messages, and the rule for make where there are
-/// neither models nor pictures. Each is evaluated by itself, as by OpenSCAD, whose exit codes and
-/// messages these are. `text` is what text_in_memory() has given of the design. Throws Error for
-/// what cannot be read or written.
-ExitCode write_texts(const Options& options, const std::optional<FileText>& text);
 
 }  // namespace frontend

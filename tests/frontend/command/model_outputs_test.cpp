@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/command.hpp"
+#include "meshes/zip_archive.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -149,6 +150,121 @@ TEST_F(ModelOutputs, NoOutputIsAFileOfTheDesign) {
   const std::string before = folder_.read("b.off");
   EXPECT_EQ(run({"-o", folder_ / "b.off", file}).code, ExitCode::kFailure);
   EXPECT_EQ(folder_.read("b.off"), before);
+}
+
+TEST_F(ModelOutputs, TheSummaryIsOpenScads) {
+  // Run by OpenSCAD 2025.07 with Manifold, but for the area of a solid, which that does not tell.
+  const std::string camera =
+      "Camera:\n   Translation: 1.00, 2.00, 3.00\n   Rotation:    55.00, 0.00, 25.00\n"
+      "   Distance:    50.00\n   FOV:         22.50\n";
+  const auto told = [&](const std::string& output, const std::string& text) {
+    return run({"-o", folder_ / output, "--summary=geometry", "--summary=bounding-box",
+                "--summary=area", "--summary=camera", "--camera=1,2,3,55,0,25,50", design(text)})
+        .err;
+  };
+  EXPECT_EQ(told("a.stl", "cube(1); translate([3, 0, 0]) cube(1);"),
+            "   Top level object is a 3D object (manifold):\n   Status:     NoError\n"
+            "   Genus:      -1\n   Vertices:       16\n   Facets:           24\n"
+            "Bounding box:\n   Min:  0.00, 0.00, 0.00\n   Max:  4.00, 1.00, 1.00\n"
+            "   Size: 4.00, 1.00, 1.00\nMeasurements:\n   Area: 12.00\n" +
+                camera);
+  EXPECT_EQ(told("a.svg", "difference() { square(10); translate([3, 3]) square(2); }"),
+            "Top level object is a 2D object:\n   Contours:        2\n"
+            "Bounding box:\n   Min:  0.00, 0.00\n   Max:  10.00, 10.00\n"
+            "   Size: 10.00, 10.00\nMeasurements:\n   Area: 96.00\n" +
+                camera);
+  EXPECT_THAT(told("a.stl", "rotate_extrude($fn = 8) translate([5, 0]) circle(1, $fn = 6);"),
+              HasSubstr("Genus:      1\n   Vertices:       48\n   Facets:           96\n"));
+  EXPECT_THAT(
+      told("a.off", "polyhedron([[0,0,0],[3,0,0],[0,4,0],[0,0,5]], [[0,1,2],[0,3,1],[0,2,3]]);"),
+      HasSubstr("   Status:     NotManifold\n   Vertices:        4\n"));
+}
+
+TEST_F(ModelOutputs, TheSummaryOfTimeAndCaches) {
+  const std::string file = design("$vpd = 7; echo(1); cube(1);");
+  EXPECT_THAT(
+      run({"-o", folder_ / "a.stl", "--summary=time", "--summary=cache", file}).err,
+      testing::ContainsRegex("\nGeometries in cache: 0\nGeometry cache size in bytes: "
+                             "0\nCGAL Polyhedrons in cache: 0\nCGAL cache size in bytes: 0\n"
+                             "Total rendering time: 0:00:0[0-9][.][0-9][0-9][0-9]\n"));
+  EXPECT_THAT(run({"-o", folder_ / "a.stl", "--summary=camera", file}).err,
+              HasSubstr("   Distance:    7.00\n"));
+  EXPECT_EQ(run({"-q", "-o", folder_ / "a.stl", "--summary=all", file}).err, "");
+  EXPECT_EQ(run({"-o", folder_ / "a.csg", "--summary=all", file}).err,
+            run({"-o", folder_ / "a.csg", file}).err)
+      << "a text has none, as in OpenSCAD";
+}
+
+TEST_F(ModelOutputs, TheSummaryAsJson) {
+  const auto told = [&](std::vector<std::string> words, const std::string& text) {
+    words.insert(words.end(), {"--summary-file=-", design(text)});
+    const Said said = run(words);
+    EXPECT_EQ(said.err, "");
+    return said.out;
+  };
+  EXPECT_EQ(told({"-o", folder_ / "a.stl", "--summary=geometry"}, "cube(1);"),
+            R"({"geometry":{"dimensions":3,"facets":12,"simple":true,"vertices":8}})"
+            "\n");
+  EXPECT_EQ(
+      told({"-o", folder_ / "a.svg", "--summary=geometry", "--summary=bounding-box"}, "square(2);"),
+      R"({"geometry":{"bounding_box":{"max":[2.0,2.0],"min":[0.0,0.0],"size":[2.0,2.0]},)"
+      R"("contours":1,"convex":true,"dimensions":2}})"
+      "\n");
+  EXPECT_EQ(told({"-o", folder_ / "a.svg", "--summary=area"},
+                 "difference() { square(2); translate([1, 1]) square(1); }"),
+            R"({"geometry":{"area":3.0}})"
+            "\n");
+  EXPECT_THAT(told({"-o", folder_ / "a.svg", "--summary=geometry"},
+                   "difference() { square(2); translate([1, 1]) square(1); }"),
+              HasSubstr("\"convex\":false"));
+  EXPECT_THAT(told({"-o", folder_ / "a.stl", "--summary=time"}, "cube(1);"),
+              StartsWith(R"({"time":{"hours":0,"milliseconds":)"));
+  EXPECT_EQ(told({"-o", folder_ / "a.stl"}, "cube(1);"), "null\n");
+  run({"-o", folder_ / "a.stl", "--summary=all", "--summary-file=" + folder_ / "s",
+       design("cube(1);")});
+  EXPECT_THAT(folder_.read("s"), StartsWith("{\"cache\":{\"cgal_cache\":{\"bytes\":0,"));
+}
+
+TEST_F(ModelOutputs, TheSummaryOfAPictureIsThatOfItsSolid) {
+  const Said said = run({"-o", folder_ / "a.png", "--imgsize=4,4", "--summary=bounding-box",
+                         design("echo(1); intersection() { cube(4); sphere(2, $fn = 4); }")});
+  EXPECT_EQ(said.code, ExitCode::kDone);
+  EXPECT_THAT(said.err, HasSubstr("   Max:  1.41, 1.41, 1.41\n"));
+  EXPECT_EQ(said.err.find("ECHO"), said.err.rfind("ECHO")) << "said once";
+  EXPECT_TRUE(folder_.has("a.png"));
+  EXPECT_EQ(run({"-o", folder_ / "a.png", "--summary=bounding-box", design("")}).code,
+            ExitCode::kDone);
+}
+
+TEST_F(ModelOutputs, SettingsOfO) {
+  const std::string file = design("color(\"red\") cube(1); translate([2, 0, 0]) cube(1);");
+  const auto materials = [&](const std::string& mode) {
+    run({"-o", folder_ / "a.3mf", "-O", "export-3mf/color-mode=" + mode, "-O",
+         "export-3mf/color=#00ff00", file});
+    const std::string model =
+        ZipArchive(folder_.read("a.3mf")).unpack("3D/3dmodel.model").value_or("");
+    const std::size_t at = model.find("displaycolor=");
+    return at == std::string::npos ? "" : model.substr(at + 14, 9);
+  };
+  EXPECT_EQ(materials("model"), "#FF0000FF");
+  EXPECT_EQ(materials("selected-only"), "#00FF00FF");
+  EXPECT_EQ(materials("none"), "");
+  EXPECT_THAT(run({"-o", folder_ / "a.stl", "-O", "export-3mf/x=1", file}).err,
+              HasSubstr("warning: -O export-3mf/x=1 is not known and ignored"));
+}
+
+TEST_F(ModelOutputs, AShardOfAnAnimation) {
+  const std::string file = design("cube(1 + $t);");
+  EXPECT_EQ(run({"-o", folder_ / "a.off", "-o", folder_ / "a.csg", "-o", folder_ / "a.png",
+                 "--imgsize=4,4", "--animate=4", "--animate_sharding=3/3", file})
+                .code,
+            ExitCode::kDone);
+  EXPECT_THAT(folder_.names(), ElementsAre("a.scad", "a00002.csg", "a00002.off", "a00002.png",
+                                           "a00003.csg", "a00003.off", "a00003.png"));
+  EXPECT_THAT(folder_.read("a00003.off"), HasSubstr("1.75 1.75 1.75"));
+  EXPECT_EQ(run({"-o", folder_ / "b.png", "--animate=4", "--animate_sharding=1/5", file}).code,
+            ExitCode::kDone);
+  EXPECT_FALSE(folder_.has("b00000.png"));
 }
 
 TEST_F(ModelOutputs, FramesOfAnAnimation) {

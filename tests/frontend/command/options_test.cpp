@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "command/export_option.hpp"
 #include "command/option_row.hpp"
 #include "frontend/error.hpp"
 #include "frontend/render_settings.hpp"
@@ -103,8 +104,9 @@ TEST(Options, ExportFormatStandsAboveTheSuffix) {
   EXPECT_EQ(parse_options({"-o", "a.exr", "--export-format", "PNG", "a"}).outputs[0].format,
             PictureFormat::kPng);
   EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
-  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=nef3", "a"}),
+  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=ply", "a"}),
               HasSubstr("give png or exr; csg, echo or param; stl, binstl, asciistl, off"));
+  EXPECT_EQ(parse_options({"-o", "x", "--export-format=NEF3", "a"}).handed.at(0).format, "nef3");
 }
 
 TEST(Options, Models) {
@@ -138,7 +140,6 @@ TEST(Options, Tolerance) {
 }
 
 TEST(Options, OutputsThatCannotBe) {
-  EXPECT_THAT(error_of({"-o", "x.nef3", "a.scad"}), HasSubstr(".stl, .off, .obj, .3mf"));
   for (const char* name : {"x.ply", "x", "a.png/x", ".", "x.png.gz"}) {
     EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png or .exr")) << name;
   }
@@ -181,14 +182,100 @@ TEST(Options, Animation) {
   EXPECT_EQ(parse_options({"-o", "x.png", "-o", "y.png", "--animate=2048", "a"}).frames, 2048u);
   // The message names the limit, and what it allows.
   EXPECT_EQ(drawing_error({"--animate=4097"}),
-            "error: --animate=4097 is not understood (give a number from 0 to 4096)");
+            "error: more than 4096 pictures: 1 of -o, for each of 4097 frames (give --animate at "
+            "most 4096, --animate_sharding, or fewer -o)");
+  EXPECT_THAT(error_of({"-o", "x.csg", "--animate=4097", "a"}), HasSubstr("more than 4096 texts"));
   EXPECT_EQ(error_of({"-o", "x.png", "-o", "y.png", "--animate=2049", "a"}),
             "error: more than 4096 pictures: 2 of -o, for each of 2049 frames (give --animate at "
-            "most 2048, or fewer -o)");
+            "most 2048, --animate_sharding, or fewer -o)");
   EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--animate=2", "a"}),
               HasSubstr("standard output"));
   EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--echo", "a"}),
               HasSubstr("standard output"));
+}
+
+TEST(Options, Shards) {
+  const auto frames = [](const char* shard, const char* all) {
+    const Options options = parse_drawing(
+        {std::string("--animate=") + all, std::string("--animate_sharding=") + shard});
+    return std::pair(options.first_frame, options.end_frame);
+  };
+  // As OpenSCAD 2025.07 has them.
+  EXPECT_EQ(frames("1/3", "4"), std::pair(0u, 1u));
+  EXPECT_EQ(frames("2/3", "4"), std::pair(1u, 2u));
+  EXPECT_EQ(frames("3/3", "4"), std::pair(2u, 4u));
+  EXPECT_EQ(frames("1/5", "4"), std::pair(0u, 0u));
+  EXPECT_EQ(frames("25/25", "99999"), std::pair(95999u, 99999u));
+  EXPECT_EQ(frames("2/3", "0"), std::pair(0u, 1u));
+  for (const char* value : {"3/2", "0/2", "1/0", "2", "a/b", "1/2/3", "/", "-1/2", "1/"}) {
+    EXPECT_THAT(drawing_error({"--animate=4", std::string("--animate_sharding=") + value}),
+                HasSubstr("give I/N, two whole numbers"))
+        << value;
+  }
+}
+
+TEST(Options, WhatIsTakenWithoutEffect) {
+  EXPECT_THAT(parse_drawing({"--backend=CGAL", "--render=force", "--enable=all"}).warnings,
+              IsEmpty());
+  EXPECT_THAT(drawing_error({"--backend=gpu"}), HasSubstr("give manifold or cgal"));
+  EXPECT_THAT(parse_drawing({"--trust-python", "--python-module=a"}).warnings,
+              ElementsAre("without effect in this version: --trust-python, --python-module"));
+  EXPECT_FALSE(parse_options({"a"}).resets_window);
+  EXPECT_TRUE(parse_options({"--reset-window-settings", "a"}).resets_window);
+}
+
+TEST(Options, Summary) {
+  EXPECT_FALSE(parse_drawing({}).summary.any());
+  const Options two = parse_drawing({"--summary=area", "--summary", "bounding-box"});
+  EXPECT_TRUE(two.summary.area && two.summary.bounding_box);
+  EXPECT_FALSE(two.summary.camera || two.summary.cache || two.summary.time || two.summary.geometry);
+  const SummaryParts all = parse_drawing({"--summary=all"}).summary;
+  EXPECT_TRUE(all.area && all.bounding_box && all.camera && all.cache && all.time && all.geometry);
+  EXPECT_EQ(parse_drawing({"--summary-file=s"}).summary_path, "s");
+  EXPECT_THAT(drawing_error({"--summary=x"}), HasSubstr("give all, cache, time"));
+  EXPECT_THAT(error_of({"-o", "-", "--export-format=stl", "--summary-file=-", "a"}),
+              HasSubstr("standard output"));
+  EXPECT_THAT(parse_options({"--summary=all", "a"}).warnings,
+              ElementsAre(HasSubstr("in a window, which needs no -o: --summary")));
+}
+
+TEST(Options, ExportSettings) {
+  const auto settings = [](const std::string& text) {
+    const Options options = parse_drawing({"-O", text});
+    EXPECT_THAT(options.warnings, IsEmpty()) << text;
+    return options.export_settings;
+  };
+  EXPECT_EQ(settings("export-pdf/paper-size=a3").pdf_paper, "a3");
+  EXPECT_EQ(settings("export-3mf/meta-data-title=a=b/c").three_mf_title, "a=b/c");
+  EXPECT_EQ(settings("export-svg/stroke-width=2.5").svg.stroke_width, 2.5);
+  EXPECT_FALSE(settings("export-svg/fill=false").svg.fill);
+  EXPECT_EQ(settings("export-svg/fill-color=Blue").svg.fill_color, "Blue");
+  EXPECT_EQ(settings("export-pdf/show-grid=true").pdf_paper, "a4");
+  // OpenSCAD goes on, too.
+  for (const char* text :
+       {"export-pdf/paper-size=a9", "export-pdf/fill=perhaps", "export-svg/stroke-width=-1",
+        "export-svg/stroke-width=x", "export-svg/fill-color=zzz", "export-pdf/stroke-width=1000"}) {
+    EXPECT_THAT(
+        parse_drawing({"-O", text}).warnings,
+        ElementsAre(HasSubstr(std::string("-O ") + text + " is not understood and ignored")));
+  }
+  for (const char* text :
+       {"export-pdf/x=1", "export-x/fill=true", "/=", "EXPORT-PDF/paper-size=a3"}) {
+    EXPECT_THAT(parse_drawing({"-O", text}).warnings, ElementsAre(HasSubstr("is not known")));
+  }
+  for (const char* text : {"x", "", "x=1", "=", "export-pdf/paper-size", "a=b/c"}) {
+    EXPECT_THAT(parse_drawing({"-O", text}).warnings, ElementsAre(HasSubstr("is no setting")));
+  }
+}
+
+TEST(Options, HelpExportListsWhatOIsGiven) {
+  EXPECT_EQ(parse_options({"--help-export"}).action, Action::kHelpExport);
+  const std::string text = export_settings_text();
+  EXPECT_THAT(text, HasSubstr("Section 'export-pdf':\n"
+                              "  - paper-size (enum): [a6,a5,<a4>,a3,letter,legal,tabloid]\n"));
+  EXPECT_THAT(text, HasSubstr("  - add-meta-data (bool): <true>/false\n"));
+  EXPECT_THAT(text, HasSubstr("  - stroke-width (double): 0.000000 : <0.500000> : 999.000000\n"));
+  EXPECT_THAT(text, HasSubstr("  - color (string): \"#f9d72c\"\n"));
 }
 
 TEST(Options, File) {

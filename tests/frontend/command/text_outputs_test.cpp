@@ -170,7 +170,8 @@ TEST_F(EvaluatedDesign, DoesNotSteerATerminal) {
 
 TEST_F(EvaluatedDesign, DoesNotSteerATerminalByOpenScad) {
   const Environment program(
-      "OPENSCAD", folder_.script("openscad", "printf 'a\\033c\\n' >&2; printf 'b\\033c\\n'"));
+      "OPENSCAD",
+      folder_.script("openscad", "printf 'a\\033c\\n' >&2; printf 'b\\033c\\n'; echo >\"$2\""));
   const std::vector<std::string> arguments = {"--evaluator=openscad", "-o", folder_ / "x.csg",
                                               design(";")};
   const Terminal terminal;
