@@ -61,15 +61,31 @@ RenderTarget::RenderTarget(const TargetFormat& format)
   }
 }
 
-void RenderTarget::begin(const glm::vec3& background) const {
+/// A gradient is cleared row by row.
+void RenderTarget::clear_color(const csgcore::FrameSettings& settings) const {
+  const auto clear = [&](uint32_t y) {
+    const glm::vec3 background = csgcore::background_of_row(settings, y, format_.height_px);
+    const float color[] = {background.r, background.g, background.b, 1.0f};
+    glClearBufferfv(GL_COLOR, 0, color);
+  };
+  if (!settings.background_below) return clear(0);
+  glEnable(GL_SCISSOR_TEST);
+  for (uint32_t y = 0; y < format_.height_px; ++y) {
+    glScissor(0, static_cast<GLint>(format_.height_px - 1 - y),
+              static_cast<GLsizei>(format_.width_px), 1);
+    clear(y);
+  }
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void RenderTarget::begin(const csgcore::FrameSettings& settings) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, static_cast<GLsizei>(format_.width_px), static_cast<GLsizei>(format_.height_px));
-  const float color[] = {background.r, background.g, background.b, 1.0f};
   const float none[] = {0, 0, 0, std::numeric_limits<float>::infinity()};
   const uint32_t no_id[] = {csgcore::kNoPrimitive, 0, 0, 0};
   const float furthest = 0;  // depth falls with distance
   glDepthMask(GL_TRUE);
-  glClearBufferfv(GL_COLOR, 0, color);
+  clear_color(settings);
   if (format_.measured) {
     glClearBufferfv(GL_COLOR, 1, none);
     glClearBufferuiv(GL_COLOR, 2, no_id);

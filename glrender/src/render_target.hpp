@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "csgcore/frame_settings.hpp"
 #include "csgcore/image.hpp"
 #include "frame.hpp"
 #include "gl_object.hpp"
@@ -29,7 +30,7 @@ class RenderTarget {
   explicit RenderTarget(const TargetFormat& format);
 
   /// Binds the framebuffer, sets the viewport and clears all channels.
-  void begin(const glm::vec3& background) const;
+  void begin(const csgcore::FrameSettings& settings) const;
   /// Returns the picture, and adds its doubts. Their pixels are as many as the picture's, or are
   /// made so. Throws GlError if anything failed while drawing.
   csgcore::Image read(const Frame& frame, Doubts& doubts) const;
@@ -43,6 +44,7 @@ class RenderTarget {
   const TargetFormat& format() const { return format_; }
 
  private:
+  void clear_color(const csgcore::FrameSettings& settings) const;
   void read_measured(const Frame& frame, csgcore::Image& image) const;
   void read_pixels(GLenum attachment, GLenum format, GLenum type, void* data) const;
   size_t pixels() const { return size_t{format_.width_px} * format_.height_px; }

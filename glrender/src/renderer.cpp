@@ -304,7 +304,7 @@ class Renderer::Impl {
   }
 
   void begin(const Pass& pass, const RenderTarget& target) {
-    target.begin(pass.settings.background);
+    target.begin(pass.settings);
     drawer_.begin(pass);
     buffers_.place(pass.frame);
   }

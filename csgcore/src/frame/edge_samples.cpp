@@ -133,8 +133,10 @@ class EdgeVisitor::Batch {
  private:
   void add_sample(const PacketHits& hits, const PacketColors& colors, uint32_t lane) {
     const bool hit = (hits.hits >> lane & 1) != 0;
+    const size_t y = pixel_of_[lane] / owner_.image_.width_px;
+    const Rgb8 background = owner_.sink_.background(static_cast<uint32_t>(y));
     for (size_t channel = 0; channel < 3; ++channel) {
-      sum_[channel] += hit ? colors.rgb[channel][lane] : owner_.sink_.background()[channel];
+      sum_[channel] += hit ? colors.rgb[channel][lane] : background[channel];
     }
     if (++summed_ < owner_.samples_) return;
     for (size_t channel = 0; channel < 3; ++channel) {
@@ -158,7 +160,7 @@ void EdgeVisitor::visit_empty(const Tile& tile) {
   for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
       if (edges_.is_edge(x, y)) {
-        image_.rgb[size_t{y} * image_.width_px + x] = sink_.background();
+        image_.rgb[size_t{y} * image_.width_px + x] = sink_.background(y);
       }
     }
   }

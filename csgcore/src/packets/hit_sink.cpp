@@ -54,13 +54,6 @@ void for_each_row(const Tile& tile, uint32_t width_px, Visit&& visit) {
   for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) visit(size_t{y} * width_px + tile.x);
 }
 
-Rgb8 to_rgb8(const glm::vec3& color) {
-  const auto channel = [](float value) {
-    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-  };
-  return {channel(color.r), channel(color.g), channel(color.b)};
-}
-
 }  // namespace
 
 MemorySink::MemorySink(const FrameRays& frame, Hits& hits) : frame_(frame), hits_(hits) {
@@ -101,8 +94,11 @@ ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, cons
       measured_(settings.measured_channels),
       measures_all_(settings.measured_channels && !settings.depth_and_id_only),
       shade_(shade_settings(settings, frame.view, solid_bounds)),
-      background_(to_rgb8(settings.background)),
       image_(image) {
+  const uint32_t rows = settings.background_below ? frame.view.height_px : 1;
+  for (uint32_t y = 0; y < rows; ++y) {
+    background_.push_back(background_pixel(settings, y, rows));
+  }
   image.width_px = frame.view.width_px;
   image.height_px = frame.view.height_px;
   const size_t pixels = size_t{image.width_px} * image.height_px;
@@ -116,9 +112,14 @@ ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, cons
 
 void ImageSink::clear(const Tile& tile) {
   Rgb8* const top = &image_.rgb[size_t{tile.y} * image_.width_px + tile.x];
-  std::fill_n(top, tile.width, background_);
-  for (uint32_t y = 1; y < tile.height; ++y) {  // copies many bytes at a time
-    std::copy_n(top, tile.width, top + size_t{y} * image_.width_px);
+  std::fill_n(top, tile.width, background(tile.y));
+  for (uint32_t y = 1; y < tile.height; ++y) {
+    Rgb8* const row = top + size_t{y} * image_.width_px;
+    if (background_.size() > 1) {
+      std::fill_n(row, tile.width, background(tile.y + y));
+    } else {  // many bytes at a time
+      std::copy_n(top, tile.width, row);
+    }
   }
   if (!measured_) return;
   for_each_row(tile, image_.width_px, [&](size_t first) {
@@ -136,8 +137,14 @@ void ImageSink::store(const PacketBlock& block, const RayPacket& rays, const Tra
   PacketColors colors;
   if (hits.hits != 0) shade_packet(shade_, frame_, rays, list, hits, colors);
   PacketPixels pixels;
-  round_colors(colors, hits.hits, background_, pixels);
+  round_colors(colors, hits.hits, background_.front(), pixels);
   copy_pixels(pixels, block, image_.width_px, image_.rgb);
+  if (background_.size() > 1) {
+    for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
+      if ((hits.hits >> lane & 1) != 0) return;
+      image_.rgb[pixel] = background(static_cast<uint32_t>(pixel / image_.width_px));
+    });
+  }
   if (measured_) store_channels(block, rays, list, hits);
 }
 

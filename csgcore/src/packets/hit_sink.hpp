@@ -1,6 +1,8 @@
 // Receivers of traced packets, which store them as pictures or as hits in memory.
 #pragma once
 
+#include <vector>
+
 #include "csgcore/image.hpp"
 #include "packets/packet.hpp"
 #include "packets/shading.hpp"
@@ -41,7 +43,8 @@ class ImageSink final : public HitSink {
   void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
              const PacketHits& hits) override;
   const ShadeSettings& shade() const { return shade_; }
-  Rgb8 background() const { return background_; }
+  /// The colour of a row of the picture where nothing is hit.
+  Rgb8 background(uint32_t y) const { return background_[background_.size() > 1 ? y : 0]; }
 
  private:
   void store_channels(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
@@ -50,7 +53,7 @@ class ImageSink final : public HitSink {
   const FrameRays& frame_;
   bool measured_, measures_all_;
   ShadeSettings shade_;
-  Rgb8 background_;
+  std::vector<Rgb8> background_;  // of each row, or of all
   Image& image_;
 };
 

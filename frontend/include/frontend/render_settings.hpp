@@ -39,6 +39,9 @@ struct ColorScheme {
   const char* name;
   Rgb background, front, back, axes, crosshair;
   Rgb flat_face{}, flat_edge{};  // of a final render of a plane figure
+  /// At the picture's lower edge; from `background` at the upper one it changes evenly. None: the
+  /// background is one colour.
+  std::optional<Rgb> background_below{};
 };
 
 /// Every setting of a picture but the camera's. The defaults are the command's.
@@ -74,7 +77,7 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
 /// Returns whether the studio's shadows, occlusion or edges are drawn.
 bool draws_studio(const RenderSettings& settings);
 
-/// Returns OpenSCAD's eleven colour schemes in its order; the first is the default.
+/// Returns OpenSCAD's colour schemes in its order; the first is the default.
 std::span<const ColorScheme> color_schemes();
 
 /// Finds a scheme by its exact name, upper and lower case distinguished, as OpenSCAD does. Null if

@@ -26,18 +26,21 @@
 #include "frontend/statistics.hpp"
 #include "frontend/terminal.hpp"
 #include "picture/flat_figure.hpp"
+#include "render/solid_renderer.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Image;
 
-Image background_picture(const csgcore::View& view, Rgb color, bool with_channels) {
+Image background_picture(const csgcore::View& view, const ColorScheme& scheme, bool with_channels) {
   Image image;
   image.width_px = view.width_px;
   image.height_px = view.height_px;
   const std::size_t pixels = std::size_t{view.width_px} * view.height_px;
-  image.rgb.assign(pixels, {color.r, color.g, color.b});
+  csgcore::FrameSettings frame;
+  set_background(scheme, frame);
+  fill_background(frame, image);
   if (with_channels) {
     image.z.assign(pixels, std::numeric_limits<float>::infinity());
     image.normal.assign(pixels, glm::vec3(0.0f));
@@ -214,7 +217,7 @@ class Run {
     Image image;
     if ((scene.model.empty() && scene.layers.empty()) || sees_nothing) {
       // A picture without surfaces needs no renderer.
-      image = background_picture(view, settings.scheme.background, settings.measured_channels);
+      image = background_picture(view, settings.scheme, settings.measured_channels);
       stats_.render.renderer = "none";
       stats_.render.render_ms = ms_since(start);
     } else {

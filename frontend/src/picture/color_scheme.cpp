@@ -12,11 +12,13 @@ constexpr Rgb rgb(uint32_t hex) {
 
 constexpr ColorScheme scheme(const char* name, uint32_t background, uint32_t front, uint32_t back,
                              uint32_t axes, uint32_t crosshair, uint32_t flat_face,
-                             uint32_t flat_edge) {
-  return {name,      rgb(background), rgb(front),     rgb(back),
-          rgb(axes), rgb(crosshair),  rgb(flat_face), rgb(flat_edge)};
+                             uint32_t flat_edge, std::optional<Rgb> background_below = {}) {
+  return {name,           rgb(background), rgb(front),     rgb(back),       rgb(axes),
+          rgb(crosshair), rgb(flat_face),  rgb(flat_edge), background_below};
 }
 
+// ClearSky is Cornfield before a gradient (OpenSCAD's pull request 4167), whose colours the preview
+// of the IntelliJ plugin com.javampire.openscad has.
 constexpr std::array kSchemes = {
     scheme("Cornfield", 0xffffe5, 0xf9d72c, 0x9dcb51, 0x000000, 0x800000, 0x00bf99, 0xff0000),
     scheme("Metallic", 0xaaaaff, 0xddddff, 0xdd22dd, 0x222233, 0x800000, 0x00bf99, 0xff0000),
@@ -28,6 +30,8 @@ constexpr std::array kSchemes = {
     scheme("Solarized", 0xfdf6e3, 0xb58800, 0x882233, 0x191816, 0x800000, 0x6c71c4, 0xb58800),
     scheme("Tomorrow", 0xf8f8f8, 0x4271ae, 0xf5871f, 0x181818, 0x8959a8, 0x718c00, 0xc82829),
     scheme("Tomorrow Night", 0x1d1f21, 0x81a2be, 0xde935f, 0xe8e8e8, 0xb294bb, 0xb5bd68, 0xcc6666),
+    scheme("ClearSky", 0x87ceeb, 0xf9d72c, 0x9dcb51, 0x000000, 0x800000, 0x00bf99, 0xff0000,
+           rgb(0xc9e9f6)),
     scheme("Monotone", 0xffffe5, 0xf9d72c, 0xf9d72c, 0x191916, 0x800000, 0x00bf99, 0xff0000),
 };
 

@@ -7,6 +7,7 @@
 
 #include "csgcore/phong.hpp"
 #include "render/scene_subdivision.hpp"
+#include "render/solid_renderer.hpp"
 
 namespace frontend {
 namespace {
@@ -150,7 +151,7 @@ class CellsPicture {
     const size_t pixels = size_t{view_.width_px} * view_.height_px;
     image_.width_px = view_.width_px;
     image_.height_px = view_.height_px;
-    image_.rgb.assign(pixels, bytes(frame_.background));
+    fill_background(frame_, image_);
     if (frame_.measured_channels) {
       image_.z.assign(pixels, std::numeric_limits<float>::infinity());
       image_.normal.assign(pixels, glm::vec3(0.0f));

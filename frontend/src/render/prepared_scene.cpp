@@ -111,7 +111,7 @@ PreparedScene::Composition PreparedScene::composition(SolidRenderer& renderer,
 csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& settings,
                                                      bool has_layers) const {
   csgcore::FrameSettings frame;
-  frame.background = color_of(settings.scheme.background);
+  set_background(settings.scheme, frame);
   frame.front = color_of(settings.scheme.front);
   frame.back = color_of(settings.scheme.back);
   if (settings.from_within) frame.from_within = color_of(*settings.from_within);
@@ -154,8 +154,7 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   Image fine;
   if (composition.model_is_layered) {
     fine = blank(view);
-    const Rgb& background = settings.scheme.background;
-    fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
+    fill_background(frame, fine);
   } else {
     fine = renderer.draw_model(model_, frame, of_fine);
     finish_studio(model_, of_fine, fine);

@@ -23,6 +23,21 @@ inline glm::vec3 color_of(const Rgb& color) {
   return glm::vec3(color.r, color.g, color.b) / 255.0f;
 }
 
+/// Sets the background to that of the scheme.
+inline void set_background(const ColorScheme& scheme, csgcore::FrameSettings& frame) {
+  frame.background = color_of(scheme.background);
+  if (scheme.background_below) frame.background_below = color_of(*scheme.background_below);
+}
+
+/// Makes the picture, which has its size, one of the background alone.
+inline void fill_background(const csgcore::FrameSettings& frame, csgcore::Image& image) {
+  image.rgb.clear();
+  for (uint32_t y = 0; y < image.height_px; ++y) {
+    image.rgb.insert(image.rgb.end(), image.width_px,
+                     csgcore::background_pixel(frame, y, image.height_px));
+  }
+}
+
 /// Whether the settings ask for a kd-tree.
 inline bool uses_cells(const RenderSettings& settings) {
   return settings.technique == Technique::kCells || settings.show == Show::kCells;

@@ -258,6 +258,14 @@ TEST_F(Command, AnEmptyDesignIsBackgroundWithoutARenderer) {
   EXPECT_EQ(drawings_, 0);
 }
 
+TEST_F(Command, AnEmptyDesignMayBeAGradient) {
+  const std::string empty = folder_.write("empty.csg", "");
+  run({"-o", png_, "--imgsize=1,4", "--colorscheme=ClearSky", empty});
+  EXPECT_THAT(decode(folder_.read("x.png")).pixels,
+              ElementsAre(Pixel{143, 209, 236}, Pixel{160, 216, 239}, Pixel{176, 223, 242},
+                          Pixel{193, 230, 245}));
+}
+
 TEST_F(Command, ACameraThatSeesNothingIsBackgroundWithoutARenderer) {
   for (const char* camera :
        {"--camera=0,0,0,0,0,0,0", "--camera=0,0,0,0,0,0,-5", "--camera=1,2,3,1,2,3"}) {

@@ -363,7 +363,7 @@ TEST(Options, Projection) {
 }
 
 TEST(Options, EveryColorScheme) {
-  EXPECT_EQ(color_schemes().size(), 11u);
+  EXPECT_EQ(color_schemes().size(), 12u);
   for (const ColorScheme& scheme : color_schemes()) {
     EXPECT_STREQ(parse_drawing({"--colorscheme", scheme.name}).render.scheme.name, scheme.name);
   }

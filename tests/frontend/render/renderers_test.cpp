@@ -126,6 +126,29 @@ size_t pixels_unlike(const Image& image, const std::array<uint8_t, 3>& color) {
 /// The most of the 19,200 pixels that may be that near to an edge.
 constexpr size_t kEdgePixels = 4;
 
+TEST_F(Renderers, ABackgroundMayBeAGradient) {
+  const auto expect_gradient = [](const Image& image) {
+    constexpr double kAbove[] = {0x87, 0xce, 0xeb}, kBelow[] = {0xc9, 0xe9, 0xf6};
+    ASSERT_FALSE(image.rgb.empty());
+    for (size_t y = 0; y < image.height_px; ++y) {
+      const double below = (static_cast<double>(y) + 0.5) / image.height_px;
+      for (size_t channel = 0; channel < 3; ++channel) {
+        const double expected = kAbove[channel] * (1 - below) + kBelow[channel] * below;
+        EXPECT_NEAR(image.rgb[y * image.width_px][channel], expected, 1) << y;
+      }
+    }
+  };
+  for (const char* option :
+       {"--info", "--technique=cells", "--samples=4", "--shading=studio", "--show=cells"}) {
+    SCOPED_TRACE(option);
+    expect_gradient(cpu({"--colorscheme=ClearSky", option}).image);
+    expect_gradient(gl({"--colorscheme=ClearSky", option}).image);
+  }
+  // Of a translucent model layers alone are drawn.
+  folder_.write("a.csg", "color([1, 0, 0, 0.5]) { sphere($fn = 0, r = 10); }");
+  expect_gradient(cpu({"--colorscheme=ClearSky"}).image);
+}
+
 TEST_F(Renderers, DrawTheSamePicture) {
   const std::vector<std::vector<std::string>> cases = {
       {},
