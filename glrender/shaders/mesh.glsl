@@ -72,6 +72,7 @@ MeshCrossings mesh_crossings(Ray world, CanonicalRay ray, float t) {
     if (abs(ray.direction[axis]) * LARGEST_INVERSE > 1.0) inverse[axis] = 1.0 / ray.direction[axis];
   }
   int texel = ray.faces + 1;
+  int stride = int(header.z);
   int end = texel + int(header.x);
   int leaf_end = 0;  // the texels of a leaf's triangles end here
   if (dot(ray.origin, ray.origin) > MESH_REACH2) end = texel;
@@ -90,7 +91,7 @@ MeshCrossings mesh_crossings(Ray world, CanonicalRay ray, float t) {
       // Crossings of closed meshes before t are not needed.
       if (is_closed) passes = passes && ray.base_t + leave > t;
       if (passes) {
-        leaf_end = texel + 3 * int(b.w);
+        leaf_end = texel + stride * int(b.w);
       } else {
         texel += int(a.w);
       }
@@ -128,7 +129,7 @@ MeshCrossings mesh_crossings(Ray world, CanonicalRay ray, float t) {
         }
       }
     }
-    texel += 3;
+    texel += stride;
   }
   if (texel < end) unfinished = true;
   if (is_closed) result.turns = 0;
@@ -154,6 +155,9 @@ Stretch mesh_stretch(Ray world, CanonicalRay ray, float t) {
     if (changes || result.end == INFINITY) return result;
   }
 }
+
+// Returns the colour of a face of a mesh whose faces have colours.
+vec3 mesh_color(int face) { return texelFetch(u_meshes, abs(face) + 3).rgb; }
 
 // Returns the normal that is turned against the ray where it enters the mesh, and along it where it
 // leaves.

@@ -5,12 +5,18 @@ uniform vec4 u_from_within;        // the colour of faces that are seen from wit
 uniform vec3 u_light_position;     // of SHADING_PHONG alone
 
 // `complement`: the operations take the primitive away here.
-vec3 base_color(uint primitive, bool complement, bool eye_inside) {
+vec3 base_color(uint primitive, bool complement, bool eye_inside, int face) {
   uvec4 surface = texelFetch(u_surfaces, int(primitive));
   uint flags = surface.y >> SURFACE_FLAGS_SHIFT;
-  uint cut_faces = flags >> CUT_FACES_SHIFT;
+  uint cut_faces = flags >> CUT_FACES_SHIFT & uint(CUT_FACES_MASK);
   bool is_cut = cut_faces == uint(CUT_FACES_BY_TREE) ? complement : cut_faces == uint(CUT_FACES_ALWAYS);
   vec3 scheme = is_cut && !eye_inside ? u_back : u_front;
+#if HAS_MESHES
+  if ((flags & uint(FACE_COLORS_FLAG)) != 0u) {
+    vec3 of_face = mesh_color(face);
+    return mix(scheme, of_face, greaterThanEqual(of_face, vec3(0.0)));
+  }
+#endif
   vec3 own = vec3(uvec3(surface.x, surface.x >> 16u, surface.y) & 65535u) * (BRIGHTEST_COLOR / 65535.0);
   return mix(scheme, own, notEqual(flags & uvec3(1u, 2u, 4u), uvec3(0u)));
 }

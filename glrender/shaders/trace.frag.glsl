@@ -68,7 +68,7 @@ void main() {
   bool eye_inside = u_eye_inside != (BEHIND != 0);
   vec3 color = eye_inside && u_from_within.a != 0.0
                    ? u_from_within.rgb
-                   : base_color(seen.primitive, seen.complement, eye_inside);
+                   : base_color(seen.primitive, seen.complement, eye_inside, seen.face);
   o_color = vec4(shade(color, point, normal, ray.direction), doubtful ? MARK_DOUBTFUL : MARK_SURE);
 #if MEASURED
   o_measured = vec4(normal, seen.t);

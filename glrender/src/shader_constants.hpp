@@ -72,6 +72,8 @@ constexpr float kBrightestColor = 8;
 constexpr uint32_t kSurfaceFlagsShift =
     16;                                 // of the flags: three bits, one for each channel that is
 constexpr uint32_t kCutFacesShift = 3;  // the primitive's own; then csgcore::CutFaces
+constexpr uint32_t kCutFacesMask = 3;
+constexpr uint32_t kFaceColorsFlag = 1 << 5;  // the faces of its mesh have colours that show
 
 struct ShaderConstant {
   std::string_view name;
@@ -97,6 +99,8 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"BRIGHTEST_COLOR", kBrightestColor, false},
     ShaderConstant{"SURFACE_FLAGS_SHIFT", kSurfaceFlagsShift, true},
     ShaderConstant{"CUT_FACES_SHIFT", kCutFacesShift, true},
+    ShaderConstant{"CUT_FACES_MASK", kCutFacesMask, true},
+    ShaderConstant{"FACE_COLORS_FLAG", kFaceColorsFlag, true},
     ShaderConstant{"CUT_FACES_BY_TREE", double(csgcore::CutFaces::kByTree), true},
     ShaderConstant{"CUT_FACES_ALWAYS", double(csgcore::CutFaces::kAlways), true},
     ShaderConstant{"SHADING_OPENSCAD", 0, true},

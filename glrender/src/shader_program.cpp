@@ -46,6 +46,7 @@ std::string prologue(const ProgramKey& key) {
   define(source, "MEASURED", key.measured);
   define(source, "HAS_CUTS", has_cuts);
   define(source, "HAS_NONCONVEX", has_nonconvex);
+  define(source, "HAS_MESHES", key.nonconvex.has(csgcore::Shape::kMesh));
   define(source, "CONSERVATIVE_DEPTH", key.conservative_depth);
   define(source, "CLIP_ZERO_TO_ONE", key.clip_zero_to_one);
   define(source, "BEHIND", key.behind);

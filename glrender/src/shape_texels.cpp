@@ -16,14 +16,16 @@ using csgcore::Vec2;
 using csgcore::Vec3;
 using Texel = std::array<float, 4>;
 
-constexpr size_t kNodeTexels = 2, kTriangleTexels = 3, kPieceTexels = 3;
+constexpr size_t kNodeTexels = 2, kPieceTexels = 3;
+
+size_t triangle_texels(const TriangleMesh& mesh) { return mesh.colors().empty() ? 3 : 4; }
 
 Texel texel(const std::array<float, 3>& place, size_t number) {
   return {place[0], place[1], place[2], static_cast<float>(number)};
 }
 
 size_t texels_of(const TriangleMesh& mesh) {
-  return 1 + kNodeTexels * mesh.nodes().size() + kTriangleTexels * mesh.triangles().size();
+  return 1 + kNodeTexels * mesh.nodes().size() + triangle_texels(mesh) * mesh.triangles().size();
 }
 
 void append_triangle(const TriangleMesh& mesh, uint32_t index, std::vector<Texel>& texels) {
@@ -34,6 +36,9 @@ void append_triangle(const TriangleMesh& mesh, uint32_t index, std::vector<Texel
     texels.push_back({static_cast<float>(corner.x), static_cast<float>(corner.y),
                       static_cast<float>(corner.z), static_cast<float>(normal[i])});
   }
+  if (mesh.colors().empty()) return;
+  const csgcore::Color color = mesh.colors()[index].value_or(csgcore::Color{-1, -1, -1, 1});
+  texels.push_back({color.r, color.g, color.b, 0});
 }
 
 /// Appends the nodes, depth first, with the triangles of the leaves.
@@ -55,7 +60,7 @@ void append_nodes(const TriangleMesh& mesh, std::vector<Texel>& texels) {
     }
     const TriangleMesh::Node& node = mesh.nodes()[visit.node];
     const size_t place = texels.size();
-    texels.push_back(texel(node.min, kTriangleTexels * node.count));
+    texels.push_back(texel(node.min, triangle_texels(mesh) * node.count));
     texels.push_back(texel(node.max, node.count));
     for (uint32_t i = 0; i < node.count; ++i) append_triangle(mesh, node.first + i, texels);
     if (node.count > 0) continue;
@@ -133,7 +138,8 @@ uint32_t MeshTexels::first_of(const Mesh& mesh) {
     throw GlError("the meshes have more triangles than OpenGL can number (use coarser meshes)");
   }
   added_.reserve(added_.size() + count);
-  added_.push_back({static_cast<float>(count - 1), mesh->is_closed() ? 1.0f : 0.0f, 0.0f, 0.0f});
+  added_.push_back({static_cast<float>(count - 1), mesh->is_closed() ? 1.0f : 0.0f,
+                    static_cast<float>(triangle_texels(*mesh)), 0.0f});
   append_nodes(*mesh, added_);
   size_ += count;
   return place->second;

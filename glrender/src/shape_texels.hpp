@@ -18,12 +18,14 @@ namespace glrender {
 /// The triangles of several meshes in canonical space, one mesh after the other. Meshes with the
 /// same vertices and triangles are one.
 ///
-/// A mesh starts with a texel that holds the number of texels that follow, and 1 if the mesh is
-/// closed, else 0. Then come the nodes of its BVH, depth first. A node is two texels: the lower
-/// corner of its box, with the number of texels to skip after the node if a ray misses the box; and
-/// the upper corner, with the number of the leaf's triangles (0: a branch, whose children follow).
-/// After a leaf come its triangles, with three texels each: the corners, and beside them the
-/// coordinates of the outward unit normal. Texel 0 belongs to no mesh.
+/// A mesh starts with a texel that holds the number of texels that follow, 1 if the mesh is closed,
+/// else 0, and the number of texels of a triangle. Then come the nodes of its BVH, depth first. A
+/// node is two texels: the lower corner of its box, with the number of texels to skip after the
+/// node if a ray misses the box; and the upper corner, with the number of the leaf's triangles (0:
+/// a branch, whose children follow). After a leaf come its triangles, with three texels each: the
+/// corners, and beside them the coordinates of the outward unit normal. If faces have colours, a
+/// fourth one holds r, g and b, which are negative where the face has none. Texel 0 belongs to no
+/// mesh.
 class MeshTexels {
  public:
   using Texel = std::array<float, 4>;

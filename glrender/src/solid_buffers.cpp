@@ -31,6 +31,9 @@ Surface surface_of(const CanonicalPrimitive& primitive) {
   uint32_t flags = static_cast<uint32_t>(primitive.cut_faces) << kCutFacesShift;
   const float channels[] = {color.r, color.g, color.b};
   for (uint32_t i = 0; i < 3; ++i) flags |= static_cast<uint32_t>(channels[i] >= 0) << i;
+  const bool has_face_colors =
+      !primitive.color && primitive.mesh() && !primitive.mesh()->colors().empty();
+  if (has_face_colors) flags |= kFaceColorsFlag;
   return {fixed_point(color.r) | fixed_point(color.g) << 16,
           fixed_point(color.b) | flags << kSurfaceFlagsShift, primitive.id, 0u};
 }

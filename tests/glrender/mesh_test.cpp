@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "agreement.hpp"
 #include "csgcore/polyhedron.hpp"
@@ -48,6 +51,17 @@ Primitive mesh(const MeshParts& parts, const Affine& place = {}) {
   return make_mesh(parts.mesh(), place);
 }
 
+/// A mesh whose triangles are red, blue, and of no colour by turns.
+Primitive colored_mesh(const MeshParts& parts, const Affine& place = {}) {
+  const std::optional<csgcore::Color> kColors[] = {csgcore::Color{1, 0, 0, 1},
+                                                   csgcore::Color{0, 0.5f, 2, 1}, std::nullopt};
+  std::vector<std::optional<csgcore::Color>> colors;
+  for (size_t i = 0; i < parts.triangles.size(); ++i) colors.push_back(kColors[i % 3]);
+  return make_mesh(std::make_shared<const csgcore::TriangleMesh>(parts.vertices, parts.triangles,
+                                                                 std::move(colors)),
+                   place);
+}
+
 struct NamedScene {
   std::string name;
   Scene scene;
@@ -72,6 +86,13 @@ std::vector<NamedScene> scenes() {
   add("Torus", Op::kUnion, {mesh(torus)});
   add("SkewedTorus", Op::kUnion, {mesh(torus, skewed())});
   add("Coil", Op::kUnion, {mesh(coil)});
+  add("ColoredFaces", Op::kUnion,
+      {colored_mesh(test_support::icosphere_parts(3, 2)), mesh(torus, at(0, 0, 2))});
+  Primitive green = colored_mesh(l_prism_parts(2, 1, 1), at(2, 0, 0));
+  green.color = csgcore::Color{0, 1, 0, 1};
+  add("ColoredCutFaces", Op::kDifference,
+      {colored_mesh(test_support::box_parts({-2, -2, -2}, {3, 3, 0.6})),
+       colored_mesh(l_prism_parts(2, 1, 1), skewed()), green});
   add("FarFromTheOrigin", Op::kUnion, {mesh(torus, at(1000, -2000, 500))});
   add("Thousandth", Op::kUnion,
       {mesh(l_prism_parts(2, 1, 1), {Mat3{0.001}, {0.1, 0.2, 0.3}}),

@@ -8,18 +8,11 @@
 #include <utility>
 #include <variant>
 
+#include "csgcore/color.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/shape.hpp"
 
 namespace csgcore {
-
-/// RGBA as the file gives it; no gamma curve is applied to it. A channel above 1 makes a surface
-/// brighter than white would; a negative r, g or b stands for that channel of the scheme's colour.
-/// The alpha is in [0, 1].
-struct Color {
-  float r, g, b, a;
-  bool operator==(const Color&) const = default;
-};
 
 /// When the surface of a primitive is a cut face, which has the scheme's back colour where the
 /// primitive has no colour of its own.
@@ -33,8 +26,9 @@ enum class CutFaces : uint8_t {
 struct Primitive {
   LocalSolid solid;
   Affine local_to_world;  // nonsingular; a mirror (det < 0) is fine
-  std::optional<Color> color =
-      {};  // none: the scheme's front colour, or its back colour on cut faces
+  /// None: that of the face of its mesh, if it has one (alpha does not count there), else the
+  /// scheme's front colour, or its back colour on cut faces.
+  std::optional<Color> color = {};
   /// Index of the node in the file among all primitive nodes, in file order (the `id` channel).
   uint32_t id = 0;
   CutFaces cut_faces = CutFaces::kByTree;

@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "csgcore/color.hpp"
 #include "csgcore/geometry.hpp"
 
 namespace csgcore {
@@ -57,13 +59,20 @@ class TriangleMesh {
   /// Makes a mesh. Vertices at the same place must be one vertex; all must be finite and are at
   /// least one. Triangles that name a vertex twice are left out; the others get another order. If
   /// the mesh is not closed, triangles are turned so that neighbours across an edge which only they
-  /// share agree, by the majority of each connected part.
-  TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
+  /// share agree, by the majority of each connected part. `colors` are those of the triangles;
+  /// empty: no face has a colour of its own.
+  TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles,
+               std::vector<std::optional<Color>> colors = {});
 
   /// The solid's definition in local coordinates, whose doubles are exact.
   std::span<const Vec3> vertices() const { return vertices_; }
   /// In the order of the BVH's leaves.
   std::span<const Triangle> triangles() const { return triangles_; }
+
+  /// By triangle; empty: no face has a colour of its own.
+  std::span<const std::optional<Color>> colors() const { return colors_; }
+  /// Returns the colour of the face that is nearest to a canonical point of the surface.
+  std::optional<Color> color_at(const Vec3& point_canonical) const;
 
   /// The edges that are passed more often in one direction than in the other.
   uint64_t open_edges() const { return open_edges_; }
@@ -89,6 +98,7 @@ class TriangleMesh {
 
   std::vector<Vec3> vertices_;
   std::vector<Triangle> triangles_;
+  std::vector<std::optional<Color>> colors_;
   uint64_t open_edges_ = 0;
   Canonical canonical_{Vec3(0.0), Vec3(1.0)};
   std::vector<Vec3> canonical_vertices_;
@@ -96,7 +106,7 @@ class TriangleMesh {
   std::vector<Node> nodes_;
 };
 
-/// Returns whether both are null, or both have the same vertices and triangles.
+/// Returns whether both are null, or both have the same vertices, triangles and colours.
 bool same_mesh(const TriangleMesh* a, const TriangleMesh* b);
 
 }  // namespace csgcore

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/simd.hpp"
+#include "csgcore/triangle_mesh.hpp"
 
 #define HWY_DISABLED_TARGETS CSGCORE_DISABLED_TARGETS
 #undef HWY_TARGET_INCLUDE
@@ -78,15 +79,37 @@ HWY_INLINE bool is_cut_face(const CanonicalPrimitive& primitive, const TraceList
   return primitive.cut_faces == CutFaces::kAlways;
 }
 
+HWY_INLINE const CanonicalPrimitive& primitive_of(const TraceList& list, uint32_t index) {
+  return list.primitives[list.list->primitive[index] & kPrimitiveBits];
+}
+
+/// Returns the mesh whose faces' colours the primitive shows; null if there is none.
+HWY_INLINE const TriangleMesh* colored_mesh(const CanonicalPrimitive& primitive) {
+  const TriangleMesh* const mesh = primitive.color ? nullptr : primitive.mesh();
+  return mesh == nullptr || mesh->colors().empty() ? nullptr : mesh;
+}
+
+/// Returns the colour of the face of the mesh that a lane hits.
+HWY_NOINLINE std::optional<Color> face_color(const TriangleMesh& mesh,
+                                             const CanonicalPrimitive& primitive,
+                                             const FrameRays& frame, const RayPacket& rays,
+                                             const PacketHits& hits, int lane) {
+  const auto at = [lane](const double(&v)[3][kPacketRays]) {
+    return Vec3{v[0][lane], v[1][lane], v[2][lane]};
+  };
+  const Vec3 offset = frame.pivot - primitive.center;
+  const Vec3 point = offset + (at(rays.origin) + hits.t[lane] * at(rays.direction));
+  return mesh.color_at(primitive.world_to_canonical * point);
+}
+
 HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list, uint32_t index,
-                           bool eye_inside) {
+                           bool eye_inside, const std::optional<Color>& color) {
   if (eye_inside && settings.from_within) return *settings.from_within;
-  const CanonicalPrimitive& primitive =
-      list.primitives[list.list->primitive[index] & kPrimitiveBits];
+  const CanonicalPrimitive& primitive = primitive_of(list, index);
   const Vec3& scheme =
       is_cut_face(primitive, list, index) && !eye_inside ? settings.back : settings.front;
-  if (!primitive.color) return scheme;
-  const Color& own = *primitive.color;
+  if (!color) return scheme;
+  const Color& own = *color;
   return {own.r < 0 ? scheme.r : 255.0 * own.r, own.g < 0 ? scheme.g : 255.0 * own.g,
           own.b < 0 ? scheme.b : 255.0 * own.b};
 }
@@ -101,9 +124,14 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
   for (LaneMask lanes = hits.hits; lanes != 0;) {
     const int first = std::countr_zero(lanes);
     const bool eye_inside = (hits.eye_inside >> first & 1) != 0;
-    const LaneMask same =
-        lanes_of_first(hits, lanes) & (eye_inside ? hits.eye_inside : ~hits.eye_inside);
-    const Vec3 base = base_color(settings, list, hits.index[first], eye_inside);
+    const CanonicalPrimitive& primitive = primitive_of(list, hits.index[first]);
+    const TriangleMesh* const mesh = colored_mesh(primitive);
+    const LaneMask same = mesh != nullptr ? LaneMask{1} << first
+                                          : lanes_of_first(hits, lanes) &
+                                                (eye_inside ? hits.eye_inside : ~hits.eye_inside);
+    const Vec3 base = base_color(
+        settings, list, hits.index[first], eye_inside,
+        mesh != nullptr ? face_color(*mesh, primitive, frame, rays, hits, first) : primitive.color);
     lanes &= ~same;
     if (settings.shading == Shading::kPhong) {
       shade_phong(settings, frame, rays, same, base, hits, colors);

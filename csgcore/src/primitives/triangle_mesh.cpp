@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -251,12 +252,43 @@ TriangleMesh::Plane plane_of(const TriangleMesh::Canonical& canonical, const Vec
       static_cast<double>(dot(normal, corner))};
 }
 
+/// Returns the squared distance of a point from the edge from a to b.
+double distance2_to(const Vec3& point, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double length2 = glm::dot(along, along);
+  const double share = length2 > 0 ? std::clamp(glm::dot(point - a, along) / length2, 0.0, 1.0) : 0;
+  const Vec3 off = point - (a + share * along);
+  return glm::dot(off, off);
+}
+
+/// Returns the squared distance of a point from a triangle.
+double distance2_to(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = glm::cross(b - a, c - a);
+  const auto is_inward = [&](const Vec3& from, const Vec3& to) {
+    return glm::dot(glm::cross(to - from, point - from), normal) >= 0;
+  };
+  const double length2 = glm::dot(normal, normal);
+  if (length2 > 0 && is_inward(a, b) && is_inward(b, c) && is_inward(c, a)) {
+    const double height = glm::dot(point - a, normal);
+    return height * height / length2;
+  }
+  return std::min(
+      {distance2_to(point, a, b), distance2_to(point, b, c), distance2_to(point, c, a)});
+}
+
 }  // namespace
 
-TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles)
-    : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
-  std::erase_if(triangles_,
-                [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles,
+                           std::vector<std::optional<Color>> colors)
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)), colors_(std::move(colors)) {
+  assert(colors_.empty() || colors_.size() == triangles_.size());
+  const auto is_line = [](const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  };
+  // Of each colour the triangle is still there.
+  const Triangle* next = triangles_.data();
+  std::erase_if(colors_, [&](const auto&) { return is_line(*next++); });
+  std::erase_if(triangles_, is_line);
   if (!is_balanced(triangles_)) {
     face_alike(triangles_);
     open_edges_ = count_open_edges(triangles_);
@@ -298,6 +330,10 @@ void TriangleMesh::build_bvh() {
   std::vector<Triangle> ordered(triangles_.size());
   for_each_index(order.size(), [&](size_t i) { ordered[i] = triangles_[order[i]]; });
   triangles_ = std::move(ordered);
+  if (colors_.empty()) return;
+  std::vector<std::optional<Color>> ordered_colors;
+  for (const uint32_t i : order) ordered_colors.push_back(colors_[i]);
+  colors_ = std::move(ordered_colors);
 }
 
 void TriangleMesh::find_planes() {
@@ -383,11 +419,44 @@ Vec3 TriangleMesh::support(const Vec3& direction) const {
   return best;
 }
 
+std::optional<Color> TriangleMesh::color_at(const Vec3& point) const {
+  if (colors_.empty()) return std::nullopt;
+  double nearest2 = kInfinity;
+  uint32_t face = 0;
+  std::vector<uint32_t> open{0};
+  while (!open.empty()) {
+    const TriangleMesh::Node& node = nodes_[open.back()];
+    open.pop_back();
+    bool is_within = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<size_t>(axis);
+      is_within = is_within && point[axis] >= node.min[i] && point[axis] <= node.max[i];
+    }
+    if (!is_within) continue;
+    if (node.count == 0) {
+      open.push_back(node.first);
+      open.push_back(node.first + 1);
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const double distance2 = distance2_to(point, canonical_vertices_[triangles_[i][0]],
+                                            canonical_vertices_[triangles_[i][1]],
+                                            canonical_vertices_[triangles_[i][2]]);
+      if (distance2 < nearest2 || (distance2 == nearest2 && i < face)) {
+        nearest2 = distance2;
+        face = i;
+      }
+    }
+  }
+  return nearest2 < kInfinity ? colors_[face] : std::nullopt;
+}
+
 bool same_mesh(const TriangleMesh* a, const TriangleMesh* b) {
   if (a == b) return true;
   if (!a || !b) return false;
   return std::ranges::equal(a->vertices(), b->vertices()) &&
-         std::ranges::equal(a->triangles(), b->triangles());
+         std::ranges::equal(a->triangles(), b->triangles()) &&
+         std::ranges::equal(a->colors(), b->colors());
 }
 
 }  // namespace csgcore

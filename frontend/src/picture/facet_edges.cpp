@@ -139,8 +139,14 @@ class FacetEdgePainter {
     const Primitive& primitive = *meshes_.primitive_of(image_.id[pixel]);
     const Rgb& scheme = is_cut_face(primitive, pixel) ? scheme_.back : scheme_.front;
     std::array<double, 3> color = {scheme.r / 255.0, scheme.g / 255.0, scheme.b / 255.0};
-    if (primitive.color) {
-      const std::array<float, 3> own = {primitive.color->r, primitive.color->g, primitive.color->b};
+    std::optional<csgcore::Color> of_face = primitive.color;
+    if (!of_face && primitive.mesh() && !primitive.mesh()->colors().empty()) {
+      const csgcore::CanonicalPrimitive& canonical = canonical_of(primitive);
+      of_face = primitive.mesh()->color_at(canonical.world_to_canonical *
+                                           (Vec3(image_.position[pixel]) - canonical.center));
+    }
+    if (of_face) {
+      const std::array<float, 3> own = {of_face->r, of_face->g, of_face->b};
       for (std::size_t i = 0; i < 3; ++i) {
         if (own[i] >= 0) color[i] = std::min(1.0f, own[i]);
       }

@@ -52,8 +52,10 @@ csgcore::Solid solid_of(const CanonicalPrimitives& primitives, Layer::Kind kind,
     const auto [entry, is_new] = new_indices.try_emplace(index, next);
     if (is_new) {
       CanonicalPrimitive& primitive = named->emplace_back(primitives[index]);
-      // color() does not count in `#` parts.
-      if (kind == Layer::Kind::kHighlight) primitive.color.reset();
+      // Colours do not count in `#` parts.
+      if (kind == Layer::Kind::kHighlight) {
+        primitive.color = csgcore::Color{-1, -1, -1, kHighlightColor.a / 255.0f};
+      }
       if (is_subtracted) primitive.cut_faces = csgcore::CutFaces::kAlways;
     }
     return entry->second;

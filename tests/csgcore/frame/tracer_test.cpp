@@ -3,7 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "checks.hpp"
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/facets.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "simd_levels.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
@@ -140,6 +148,74 @@ std::vector<std::string> scene_names() {
 
 INSTANTIATE_TEST_SUITE_P(Tracer, PicturesOf, testing::ValuesIn(scene_names()),
                          [](const auto& name) { return name.param; });
+
+/// Draws a box from −1 to 1 from above or below; all but the sides' faces have that colour above.
+std::array<uint8_t, 3> seen_of_box(const std::optional<Color>& own, bool from_below,
+                                   bool is_subtracted = false) {
+  const Mesh faces = box_mesh({Vec3(-1.0), Vec3(1.0)});
+  std::vector<TriangleMesh::Triangle> triangles;
+  std::vector<std::optional<Color>> colors;
+  for (const std::vector<uint32_t>& face : faces.faces) {
+    bool is_top = true;
+    for (const uint32_t vertex : face) is_top = is_top && faces.vertices[vertex].z > 0;
+    for (size_t i = 2; i < face.size(); ++i) {
+      triangles.push_back({face[0], face[i - 1], face[i]});
+      colors.push_back(is_top ? std::optional(Color{1, 0, 0.5f, 1}) : std::nullopt);
+    }
+  }
+  Scene scene;
+  Primitive box = make_mesh(std::make_shared<const TriangleMesh>(faces.vertices, triangles, colors),
+                            {Mat3(2.0), {5, 6, 7}});
+  box.color = own;
+  CsgTreeBuilder builder;
+  if (is_subtracted) {
+    scene.primitives.push_back(make_sphere(30, {Mat3(1.0), {5, 6, 7}}));
+    builder.open(Op::kDifference);
+    builder.primitive(0);
+  }
+  scene.primitives.push_back(box);
+  builder.primitive(is_subtracted ? 1 : 0);
+  if (is_subtracted) builder.close();
+  scene.model = builder.finish();
+  View view;
+  view.projection = is_subtracted ? Projection::kPerspective : Projection::kOrthographic;
+  // Within the hole the far side is seen, whose face is that above if the eye looks up.
+  view.eye = {5.2, 6.3, is_subtracted ? 7 : from_below ? -20 : 20};
+  view.forward = {0, 0, from_below ? 1 : -1};
+  view.right = {from_below ? -1.0 : 1.0, 0, 0};
+  view.width_px = view.height_px = 1;
+  view.half_height = 0.1;
+  FrameSettings settings;
+  settings.front = {0, 0, 1};
+  settings.back = {0, 1, 0};
+  Image image;
+  TraceStats stats;
+  draw(Solid(canonical_primitives(scene), scene.model), view, settings, {}, image, stats);
+  return image.rgb.at(0);
+}
+
+TEST(FaceColors, ShowWhereThePrimitiveHasNone) {
+  const auto [r, g, b] = seen_of_box({}, false);
+  EXPECT_GT(r, 100);
+  EXPECT_EQ(g, 0);
+  EXPECT_NEAR(b, r / 2.0, 1);
+  const auto bottom = seen_of_box({}, true);
+  EXPECT_EQ(bottom[0], 0);
+  EXPECT_GT(bottom[2], 100) << "the scheme's front colour";
+  const auto own = seen_of_box(Color{0, 0.5f, 0, 1}, false);
+  EXPECT_EQ(own[0], 0);
+  EXPECT_GT(own[1], 50) << "the primitive's own";
+  EXPECT_EQ(seen_of_box(Color{-1, -1, -1, 1}, false)[0], 0) << "the scheme's";
+}
+
+TEST(FaceColors, ShowOnCutFaces) {
+  const auto colored = seen_of_box({}, true, true);
+  EXPECT_GT(colored[0], 100);
+  EXPECT_EQ(colored[1], 0);
+  const auto other = seen_of_box({}, false, true);
+  EXPECT_EQ(other[0], 0);
+  EXPECT_GT(other[1], 100) << "the scheme's back colour";
+}
 
 }  // namespace
 }  // namespace csgcore

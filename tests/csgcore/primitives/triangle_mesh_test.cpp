@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <memory>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -217,6 +220,35 @@ TEST(TriangleMesh, HasTheVertexThatIsFurthest) {
     }
     EXPECT_EQ(glm::dot(mesh.support(direction), direction), furthest);
   }
+}
+
+TEST(TriangleMesh, HasTheColorsOfItsFaces) {
+  const Mesh faces = sphere_mesh(2, 12);
+  Triangles triangles;
+  std::vector<std::optional<Color>> colors;
+  std::map<Triangle, std::optional<Color>> color_of;
+  for (const Triangle& triangle : fans_of(faces)) {
+    // Beside each triangle is one that is left out.
+    triangles.push_back({triangle[0], triangle[0], triangle[1]});
+    colors.push_back(Color{9, 9, 9, 1});
+    triangles.push_back(triangle);
+    colors.push_back(Color{static_cast<float>(triangles.size()), 0, 0, 1});
+    if (triangles.size() % 7 == 0) colors.back().reset();
+    color_of[triangle] = colors.back();
+  }
+  const TriangleMesh mesh(faces.vertices, triangles, colors);
+  ASSERT_EQ(mesh.triangles().size(), color_of.size());
+  ASSERT_EQ(mesh.colors().size(), color_of.size());
+  for (size_t i = 0; i < mesh.triangles().size(); ++i) {
+    const Triangle& triangle = mesh.triangles()[i];
+    EXPECT_EQ(mesh.colors()[i], color_of[triangle]);
+    Vec3 middle(0.0);
+    for (const uint32_t vertex : triangle) middle += mesh.canonical_vertices()[vertex] / 3.0;
+    EXPECT_EQ(mesh.color_at(middle + 1e-9 * mesh.planes()[i].normal), color_of[triangle]);
+  }
+  EXPECT_EQ(mesh.color_at(Vec3(0.0)), std::nullopt) << "far from the surface";
+  EXPECT_EQ(ball(12).color_at(Vec3(1, 0, 0)), std::nullopt);
+  EXPECT_FALSE(same_mesh(&mesh, std::make_unique<TriangleMesh>(faces.vertices, triangles).get()));
 }
 
 TEST(TriangleMesh, IsTheSameByContent) {
