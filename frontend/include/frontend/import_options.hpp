@@ -40,8 +40,8 @@ constexpr csgcore::Color kSeenFromWithin{1, 0, 1, 1};
 constexpr language::LanguageVersion kDefaultLanguage = language::LanguageVersion::k2026;
 
 struct ImportOptions {
-  /// Whose language a design is evaluated in by the own evaluator, and whose rules its tree is
-  /// drawn by (GeometryDialect).
+  /// Whose language a design is evaluated in by the own evaluator, and by whose rules its tree is
+  /// drawn (GeometryDialect) and files are imported.
   language::LanguageVersion language = language::LanguageVersion::k2021;
   /// The folder that the files which a design names are in, unless their paths are absolute. Empty:
   /// the working folder.

@@ -28,6 +28,13 @@ std::optional<double> first_number(const NodeReader& reader, language::ArgumentN
   return value.number();
 }
 
+/// Returns nothing where the text is missing, or is none.
+std::optional<std::string> given_text(const NodeReader& reader, language::ArgumentName name) {
+  const ArgumentValue value = reader.find(name);
+  if (!value.is_string()) return std::nullopt;
+  return std::string(value.text());
+}
+
 Vec2 read_origin(const NodeReader& reader) {
   const ArgumentValue origin = reader.find("origin");
   if (!origin.is_list() || origin.elements().size() < 2) return Vec2(0.0);
@@ -38,9 +45,10 @@ Vec2 read_origin(const NodeReader& reader) {
 
 }  // namespace
 
-FileArguments read_import(NodeReader& reader) {
+FileArguments read_import(NodeReader& reader, language::LanguageVersion language) {
   FileArguments result = read_file(reader);
-  result.is_of_2026 = !reader.find("center").is_undef();
+  result.is_of_2026 =
+      language == language::LanguageVersion::k2026 || !reader.find("center").is_undef();
   result.is_centered = reader.center();
   return result;
 }
@@ -69,7 +77,7 @@ bool names_drawing(const NodeTree& tree, const Node& node) {
   return is_extrusion(node.kind) ? !file.empty() : drawing_format_of(file).has_value();
 }
 
-DrawingArguments read_drawing(NodeReader& reader) {
+DrawingArguments read_drawing(NodeReader& reader, language::LanguageVersion language) {
   DrawingArguments result;
   result.file = file_of(reader);
   if (reader.node().kind == NodeKind::kImport) {
@@ -78,6 +86,10 @@ DrawingArguments read_drawing(NodeReader& reader) {
   if (result.format == DrawingFormat::kSvg) {
     result.svg.is_centered = reader.center();
     result.svg.dpi = first_number(reader, "dpi").value_or(result.svg.dpi);
+    result.svg.language = language;
+    result.svg.id = given_text(reader, "id");
+    result.svg.layer = given_text(reader, "layer");
+    result.svg.facets = reader.facets();
     return result;
   }
   result.dxf.is_centered = reader.node().kind == NodeKind::kImport && reader.is_true("center");

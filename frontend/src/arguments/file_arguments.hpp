@@ -8,6 +8,7 @@
 
 #include "arguments/node_reader.hpp"
 #include "drawings/drawing.hpp"
+#include "language/language_version.hpp"
 
 namespace frontend {
 
@@ -16,11 +17,12 @@ namespace frontend {
 struct FileArguments {
   std::string file{};
   bool is_surface = false;  // else of an import
-  /// The import is by 2026's rules: that writes `center` of every file, 2021.01 of drawings alone.
+  /// The import is by 2026's rules, which the node may tell: 2026 writes `center` of every file,
+  /// 2021.01 of drawings alone.
   bool is_of_2026 = false;
   bool is_centered = false, is_inverted = false;
 };
-FileArguments read_import(NodeReader& reader);
+FileArguments read_import(NodeReader& reader, language::LanguageVersion language);
 FileArguments read_surface(NodeReader& reader);
 
 /// Returns whether the node's figure is a drawing: that of an import by its file's suffix, and that
@@ -41,6 +43,6 @@ struct DrawingArguments {
 };
 
 /// The node names a drawing. Extrusions read DXF alone, as in OpenSCAD.
-DrawingArguments read_drawing(NodeReader& reader);
+DrawingArguments read_drawing(NodeReader& reader, language::LanguageVersion language);
 
 }  // namespace frontend

@@ -14,9 +14,6 @@ using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
 constexpr double kQuarter = std::numbers::pi / 2;
-/// OpenSCAD 2021.01 cuts a Bézier curve into so many chords, at equal steps of its parameter.
-constexpr int kOpenScadChords = 20;
-
 /// The number of points that a segment has of each kind.
 constexpr std::array<size_t, 4> kPointsOfKind{1, 2, 3, 6};
 
@@ -213,18 +210,19 @@ CurvePath CurvePath::mapped(const PlaneMap& map) const {
   return result;
 }
 
-Polygon CurvePath::openscad_points() const {
+Polygon CurvePath::openscad_points(int bezier_chords, int most_chords) const {
   Polygon result{first_};
+  bezier_chords = std::min(bezier_chords, most_chords);
   visit_segments([&](Kind kind, const Vec2& start, std::span<const Vec2> points) {
     if (kind == Kind::kArc) {
       const EllipseArc arc = arc_of(points);
-      const int count = static_cast<int>(points[4].x);
+      const int count = std::min(static_cast<int>(points[4].x), most_chords);
       for (int i = 1; i < count; ++i) {
         result.push_back(arc.point(arc.start + arc.sweep * i / count));
       }
     } else if (kind != Kind::kLine) {
-      for (int i = 1; i < kOpenScadChords; ++i) {
-        const double t = static_cast<double>(i) / kOpenScadChords;
+      for (int i = 1; i < bezier_chords; ++i) {
+        const double t = static_cast<double>(i) / bezier_chords;
         result.push_back(kind == Kind::kCubic ? Cubic(start, points).point(t)
                                               : quadratic_point(start, points[0], points[1], t));
       }

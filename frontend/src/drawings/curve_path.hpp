@@ -63,8 +63,9 @@ class CurvePath {
   size_t curves() const { return curves_; }
 
   CurvePath mapped(const PlaneMap& map) const;
-  /// Returns OpenSCAD's points on the path, the first one among them.
-  Polygon openscad_points() const;
+  /// Returns OpenSCAD's points on the path, the first one among them. A Bézier curve has so many
+  /// chords, and no curve has more than the most.
+  Polygon openscad_points(int bezier_chords, int most_chords) const;
   /// Returns the path, closed by a line where it is open.
   csgcore::ProfileLoop loop(const CurveFineness& fineness) const;
 

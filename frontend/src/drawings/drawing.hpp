@@ -5,11 +5,13 @@
 // 64 deep, is left out, with a warning.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "csgcore/facets.hpp"
+#include "language/language_version.hpp"
 #include "plane/figure.hpp"
 
 namespace frontend {
@@ -40,6 +42,11 @@ struct SvgSettings {
   bool is_centered = false;
   double dpi = 72;  // < 0.001 or nan: 72
   bool is_faceted = false;
+  language::LanguageVersion language = language::LanguageVersion::k2021;
+  // Of 2026:
+  std::optional<std::string> id{};     // of the elements that are drawn; nothing: all are
+  std::optional<std::string> layer{};  // the label of Inkscape's layers that are drawn
+  csgcore::FacetSettings facets{};     // of the chords
 };
 
 /// Leaves out the figures that would take too long to draw, and tells of it, and of others that are
@@ -52,7 +59,8 @@ void leave_out_tangles(const std::string& name, bool are_others_left_out, Drawin
 /// DXF, in text: lines, polylines without bulges, circles, arcs, ellipses and inserted blocks.
 /// Their ends are joined where they meet on OpenSCAD's grid of 1/1024.
 Drawing read_dxf(std::string_view bytes, const std::string& name, const DxfSettings& settings);
-/// SVG: paths, rectangles, circles, ellipses, lines, polylines, polygons and groups.
+/// SVG: paths, rectangles, circles, ellipses, lines, polylines, polygons and groups; by 2026's
+/// rules uses of what `defs` hold, too.
 Drawing read_svg(std::string_view bytes, const std::string& name, const SvgSettings& settings);
 
 /// Moves the middle of the figures' box to a place.

@@ -1,4 +1,4 @@
-// SVG, as OpenSCAD 2021.01 reads it.
+// SVG, as OpenSCAD reads it: first 2021.01.
 // - path, rect, circle, ellipse, line, polyline and polygon count, in whatever element they stand
 //   but defs. transform counts on these and on g. Style sheets, use, text, fill, display and the
 //   name space do not. An attribute's number with anything behind it is 0, and so is one beyond the
@@ -20,6 +20,20 @@
 // - center puts the middle of the drawing's box at minus the view box's corner.
 // - With --facets=all, a circle has 40 chords, a Bézier curve 20 and an arc of a degrees ⌊a/18⌋ +
 //   4, whatever $fn is.
+//
+// What 2026 does otherwise:
+// - `use` draws an element that stands in `defs` before it: a shape, a g, or a `use`. It is moved
+// by
+//   transform, and by x and y within that. Both href and xlink:href name it, by # and its id.
+// - What has display: none is left out, with all below it if it is a g or a use.
+// - `id` and `layer` choose elements: those of that id, and those with that inkscape:label and the
+//   inkscape:groupmode of layers, with what is in their groups and uses. With both, the id must
+//   stand within the layer. What stands around a chosen element does not hide it.
+// - A page's size in % is that share of the view box's, as if that had no unit, and the view box's
+//   corner has the same share. Blanks may stand before units, and around names and values in style.
+// - Ends are butt unless stroke-linecap says otherwise.
+// - Chords are more where $fn asks for more, or $fa and $fs do, but for Bézier curves.
+// fill-rule, visibility, fill and text do not count there either.
 #include "drawings/svg.hpp"
 
 #include <algorithm>
@@ -38,146 +52,19 @@
 namespace frontend {
 namespace {
 
-constexpr int kOpenScadChordsOfCircle = 40;
+using language::LanguageVersion;
 
-/// An element that is drawn, by the even-odd rule.
-struct SvgShape {
-  PlaneMap map;  // to the document's coordinates
-  SvgPath path;
-  StrokeSettings stroke;  // of what is open
-  bool is_circle = false;
-};
-
-/// The value that an attribute gives, or else the attribute `style`; empty where neither does.
-std::string_view style_of(const pugi::xml_node& element, const char* name) {
-  if (const pugi::xml_attribute own = element.attribute(name)) return own.value();
-  std::string_view style = element.attribute("style").value();
-  const std::string_view wanted(name);
-  while (!style.empty()) {
-    const std::string_view entry = style.substr(0, style.find(';'));
-    style.remove_prefix(std::min(style.size(), entry.size() + 1));
-    const size_t colon = entry.find(':');
-    if (colon != std::string_view::npos && entry.substr(0, colon) == wanted) {
-      return entry.substr(colon + 1);
-    }
-  }
-  return {};
-}
-
-StrokeSettings read_stroke(const pugi::xml_node& element) {
-  StrokeSettings settings;
-  constexpr double kLeastWidth = 0.01;  // what is thinner has OpenSCAD's width of 1
-  const double width = svg_number(style_of(element, "stroke-width"));
-  if (width >= kLeastWidth && std::isfinite(width)) settings.width = width;
-  const std::string_view ends = style_of(element, "stroke-linecap");
-  if (ends == "butt") settings.ends = LineEnds::kButt;
-  if (ends == "round") settings.ends = LineEnds::kRound;
-  const std::string_view corners = style_of(element, "stroke-linejoin");
-  if (corners == "bevel") settings.corners = CornerStyle::kSquare;
-  if (corners == "round") settings.corners = CornerStyle::kRound;
-  return settings;
-}
-
-std::optional<CurvePath> read_points(const pugi::xml_node& element) {
-  std::string_view text = element.attribute("points").value();
-  std::optional<CurvePath> path;
-  while (true) {
-    const std::string_view x = take_svg_word(text);
-    const std::string_view y = take_svg_word(text);
-    if (y.empty()) return path;
-    const Vec2 point(svg_number(x), svg_number(y));
-    if (path) {
-      path->line_to(point);
-    } else {
-      path.emplace(point);
-    }
-  }
-}
-
-CurvePath ellipse(const Vec2& center, const Vec2& radii) {
-  const EllipseArc arc{center, Vec2(radii.x, 0), Vec2(0, radii.y), 0, kTurn};
-  CurvePath path(arc.first());
-  path.arc_to(arc, kOpenScadChordsOfCircle, arc.first());
-  return path;
-}
-
-CurvePath read_line(const pugi::xml_node& element) {
-  CurvePath path({svg_number(element, "x1"), svg_number(element, "y1")});
-  path.line_to({svg_number(element, "x2"), svg_number(element, "y2")});
-  return path;
-}
-
-/// A corner of a rectangle, a quarter of an ellipse.
-void add_corner(const Vec2& center, const Vec2& radii, double start, const Vec2& end,
-                CurvePath& path) {
-  constexpr double kQuarterTurn = kTurn / 4;
-  const EllipseArc arc{center, Vec2(radii.x, 0), Vec2(0, radii.y), start * kQuarterTurn,
-                       kQuarterTurn};
-  path.arc_to(arc, svg_arc_pieces(kQuarterTurn), end);
-}
-
-CurvePath read_rectangle(const pugi::xml_node& element) {
-  const Vec2 min(svg_number(element, "x"), svg_number(element, "y"));
-  const Vec2 size(svg_number(element, "width"), svg_number(element, "height"));
-  const Vec2 max = min + size;
-  Vec2 r(svg_number(element, "rx"), svg_number(element, "ry"));
-  if (r.y == 0) r.y = r.x;
-  if (r.x == 0) r.x = r.y;
-  r = glm::min(r, size / 2.0);
-  if (!(r.x > 0 && r.y > 0)) {
-    CurvePath path(min);
-    for (const Vec2& corner : {Vec2(max.x, min.y), max, Vec2(min.x, max.y)}) path.line_to(corner);
-    return path;
-  }
-  CurvePath path({min.x + r.x, min.y});
-  path.line_to({max.x - r.x, min.y});
-  add_corner({max.x - r.x, min.y + r.y}, r, 3, {max.x, min.y + r.y}, path);
-  path.line_to({max.x, max.y - r.y});
-  add_corner({max.x - r.x, max.y - r.y}, r, 0, {max.x - r.x, max.y}, path);
-  path.line_to({min.x + r.x, max.y});
-  add_corner({min.x + r.x, max.y - r.y}, r, 1, {min.x, max.y - r.y}, path);
-  path.line_to({min.x, min.y + r.y});
-  add_corner({min.x + r.x, min.y + r.y}, r, 2, {min.x + r.x, min.y}, path);
-  return path;
-}
-
-/// Returns the element's shape in its own coordinates; nothing if it is none.
-std::optional<SvgShape> read_shape(const pugi::xml_node& element) {
-  const std::string_view name = element.name();
-  SvgShape shape;
-  if (name == "path") {
-    shape.path = read_svg_path(element.attribute("d").value());
-  } else if (name == "rect") {
-    shape.path.filled.push_back(read_rectangle(element));
-  } else if (name == "circle" || name == "ellipse") {
-    shape.is_circle = true;
-    const bool has_one_radius = name == "circle";
-    const Vec2 radii(svg_number(element, has_one_radius ? "r" : "rx"),
-                     svg_number(element, has_one_radius ? "r" : "ry"));
-    if (radii.x == 0 || radii.y == 0) return std::nullopt;
-    const Vec2 center(svg_number(element, "cx"), svg_number(element, "cy"));
-    shape.path.filled.push_back(ellipse(center, radii));
-  } else if (name == "line") {
-    shape.path.open.push_back(read_line(element));
-  } else if (name == "polyline" || name == "polygon") {
-    std::optional<CurvePath> path = read_points(element);
-    if (!path) return std::nullopt;
-    (name == "polygon" ? shape.path.filled : shape.path.open).push_back(std::move(*path));
-  } else {
-    return std::nullopt;
-  }
-  shape.stroke = read_stroke(element);
-  return shape;
-}
-
-/// Walks the document, in its order.
+/// Reads the document's shapes.
 class SvgReader {
  public:
   SvgReader(const std::string& name, const SvgSettings& settings)
-      : name_(name), settings_(settings), page_(valid_dpi(settings.dpi)) {}
+      : name_(name),
+        settings_(settings),
+        chords_(svg_chords(settings)),
+        page_(valid_dpi(settings.dpi), settings.language) {}
 
   Drawing read(const pugi::xml_document& document) {
-    collect(document);
+    collect(document.document_element());
     PlaneMap map = page_.map();
     place(map);
     if (settings_.is_faceted) {
@@ -198,46 +85,15 @@ class SvgReader {
     return dpi >= kLeast && std::isfinite(dpi) ? dpi : kDefault;
   }
 
-  void collect(const pugi::xml_document& document) {
-    const pugi::xml_node root = document.document_element();
-    std::vector<PlaneMap> maps{{}};  // of the nodes around
-    bool is_hidden = false;          // by `defs`
-    pugi::xml_node node = root;
-    while (node) {
-      enter(node, node == root, maps.back(), is_hidden);
-      if (pugi::xml_node child = node.first_child()) {
-        maps.push_back(map_within(node, node == root, maps.back()));
-        node = child;
-        continue;
-      }
-      while (node != root && !node.next_sibling()) {
-        node = node.parent();
-        maps.pop_back();
-        if (std::string_view(node.name()) == "defs") is_hidden = false;
-      }
-      if (node == root) return;
-      node = node.next_sibling();
+  void collect(const pugi::xml_node& root) {
+    const auto take_page = [&](const pugi::xml_node& svg) { page_.take(svg); };
+    for (const SvgElement& element :
+         drawn_svg_elements(root, name_, settings_, take_page, drawing_.problems)) {
+      std::optional<SvgShape> shape = read_svg_shape(element.node, settings_);
+      if (!shape) continue;
+      shape->map = element.map;
+      shapes_.push_back(std::move(*shape));
     }
-  }
-
-  /// Only groups move what is in them, but not the root.
-  static PlaneMap map_within(const pugi::xml_node& node, bool is_root, const PlaneMap& around) {
-    if (is_root || std::string_view(node.name()) != "g") return around;
-    return compose(around, read_svg_transform(node.attribute("transform").value()));
-  }
-
-  void enter(const pugi::xml_node& node, bool is_root, const PlaneMap& around, bool& is_hidden) {
-    const std::string_view name = node.name();
-    if (name == "defs") is_hidden = static_cast<bool>(node.first_child());
-    if (name == "svg") page_.take(node);
-    if (is_hidden) return;
-    std::optional<SvgShape> shape = read_shape(node);
-    if (!shape) return;
-    shape->map = around;
-    if (!is_root) {
-      shape->map = compose(around, read_svg_transform(node.attribute("transform").value()));
-    }
-    shapes_.push_back(std::move(*shape));
   }
 
   /// Returns whether nothing is left of an area, up to rounding.
@@ -249,15 +105,18 @@ class SvgReader {
 
   /// Pens draw before anything is moved.
   void place(const PlaneMap& page) {
+    bool are_near = true;
     for (SvgShape& shape : shapes_) {
       shape.map = compose(page, shape.map);
       if (is_flat(shape.map)) shape.path = {};
       for (CurvePath& path : shape.path.filled) path = path.mapped(shape.map);
       if (is_in_range(shape)) continue;
       shape.path = {};
-      drawing_.problems.assign(1, {"Range check failed for a shape of '" + name_ + "'",
-                                   "it has coordinates that are too large, or not finite"});
+      are_near = false;
     }
+    if (are_near) return;
+    drawing_.problems.push_back({"Range check failed for a shape of '" + name_ + "'",
+                                 "it has coordinates that are too large, or not finite"});
   }
 
   static bool is_in_range(const SvgShape& shape) {
@@ -274,8 +133,10 @@ class SvgReader {
     const bool is_alone = shape.path.filled.empty() && shape.path.open.size() == 1;
     for (const CurvePath& path : shape.path.open) {
       StrokeSettings settings = shape.stroke;
-      settings.is_coarse = settings_.is_faceted;
-      const Polygon line = settings_.is_faceted ? path.openscad_points() : chords(path, fineness);
+      if (settings_.is_faceted) {
+        settings.chords = is_of_2026() ? StrokeChords::kOf2026 : StrokeChords::kOf2021;
+      }
+      const Polygon line = settings_.is_faceted ? openscad_points(path) : chords(path, fineness);
       std::optional<SimplePolygons> polygons;
       if (settings_.is_faceted || !is_alone) polygons = stroked(line, settings);
       if (!polygons && crosses_itself(line, settings.width, kMostCrossingsOfPath)) {
@@ -305,27 +166,44 @@ class SvgReader {
     return points;
   }
 
+  bool is_of_2026() const { return settings_.language == LanguageVersion::k2026; }
+
+  Polygon openscad_points(const CurvePath& path) const {
+    return path.openscad_points(chords_.bezier(), most_chords_);
+  }
+
   void add_chords() {
+    constexpr size_t kMostChords = 1 << 22;  // of all curves; as points they have 64 MB
+    constexpr size_t kLeastChords = 64;      // of one
+    size_t count = 1;
+    for_each_path([&](const CurvePath& path) { count += path.curves(); });
+    most_chords_ = static_cast<int>(std::max(kMostChords / count, kLeastChords));
     for (const SvgShape& shape : shapes_) {
       Polygons polygons;
-      for (const CurvePath& path : shape.path.filled) polygons.push_back(path.openscad_points());
+      for (const CurvePath& path : shape.path.filled) polygons.push_back(openscad_points(path));
       Outline outline = outline_of(std::move(polygons));
       add_strokes(shape, {}, outline);
       add_figure(std::move(outline));
     }
   }
 
+  /// Calls visit(path) with all paths of the shapes.
+  template <typename Visit>
+  void for_each_path(const Visit& visit) const {
+    for (const SvgShape& shape : shapes_) {
+      for (const auto* paths : {&shape.path.filled, &shape.path.open}) {
+        for (const CurvePath& path : *paths) visit(path);
+      }
+    }
+  }
+
   void add_curves() {
     Rectangle box;
     size_t count = 1;
-    for (const SvgShape& shape : shapes_) {
-      for (const auto* paths : {&shape.path.filled, &shape.path.open}) {
-        for (const CurvePath& path : *paths) {
-          box.merge(path.bounds());
-          count += path.curves();
-        }
-      }
-    }
+    for_each_path([&](const CurvePath& path) {
+      box.merge(path.bounds());
+      count += path.curves();
+    });
     const CurveFineness fineness = fineness_of(box, count);
     for (const SvgShape& shape : shapes_) {
       if (const std::optional<Disc> disc = disc_of(shape)) {
@@ -353,9 +231,11 @@ class SvgReader {
 
   const std::string& name_;
   SvgSettings settings_;
+  const SvgChords chords_;
   SvgPage page_;
   std::vector<SvgShape> shapes_;
   std::vector<Figure> figures_;
+  int most_chords_ = 0;
   bool has_tangles_ = false;  // which are none of the figures
   Drawing drawing_;
 };

@@ -2,14 +2,20 @@
 #pragma once
 
 #include <charconv>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <pugixml.hpp>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "csg/lexer.hpp"
+#include "csgcore/facets.hpp"
 #include "drawings/curve_path.hpp"
+#include "drawings/drawing.hpp"
+#include "plane/outlines.hpp"
 #include "plane/plane_map.hpp"
 
 namespace frontend {
@@ -46,6 +52,40 @@ inline std::string_view take_svg_word(std::string_view& text) {
   return word;
 }
 
+/// Takes what separates words from both ends of the text.
+inline std::string_view trimmed_svg(std::string_view text) {
+  while (!text.empty() && is_svg_separator(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_svg_separator(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The chords that OpenSCAD has for curves.
+class SvgChords {
+ public:
+  /// Those of 2021.01, which no settings change.
+  SvgChords() = default;
+  /// Those of 2026: 2021.01's, or as many as $fn, $fa and $fs ask for, if these are more.
+  explicit SvgChords(const csgcore::FacetSettings& facets) : facets_(facets) {}
+
+  int circle(const Vec2& radii) const;
+  /// Returns where a circle's chords begin, in radians from the x axis to the y axis.
+  double circle_start() const;
+  /// `sweep` in radians, of either sign.
+  int arc(double sweep, const Vec2& radii) const;
+  int bezier() const;
+
+ private:
+  double fragments(const Vec2& radii) const;
+
+  std::optional<csgcore::FacetSettings> facets_;
+};
+
+/// Returns those that the settings ask for.
+inline SvgChords svg_chords(const SvgSettings& settings) {
+  return settings.language == language::LanguageVersion::k2026 ? SvgChords(settings.facets)
+                                                               : SvgChords();
+}
+
 /// What a path draws: closed parts, which are filled, and open ones, which a pen follows.
 struct SvgPath {
   std::vector<CurvePath> filled;
@@ -54,22 +94,48 @@ struct SvgPath {
 
 /// Reads the attribute `d`, by OpenSCAD 2021.01's rules (svg.cpp). A number that cannot be read is
 /// 0, and an incomplete set of numbers is left out.
-SvgPath read_svg_path(std::string_view data);
+SvgPath read_svg_path(std::string_view data, const SvgChords& chords);
 
 /// Returns the part of an ellipse with the axes rx along (cos, sin) of the rotation, and ry, both
 /// not 0, from one point to another one; scaled up if it cannot reach both.
 EllipseArc svg_arc(const Vec2& from, const Vec2& to, Vec2 radii, double rotation_deg, bool is_large,
                    bool is_clockwise_on_paper);
 
-/// Returns the chords that OpenSCAD has for an arc.
-int svg_arc_pieces(double sweep);
+/// A drawn element.
+struct SvgShape {
+  PlaneMap map;           // to the document's coordinates
+  SvgPath path;           // by the even-odd rule
+  StrokeSettings stroke;  // of what is open
+  bool is_circle = false;
+};
 
-/// Where a document's coordinates lie, in mm: what OpenSCAD 2021.01 makes of the attributes of
-/// `svg` elements (svg.cpp). If there are several, the last one places all that is drawn.
+/// Returns the element's shape in its own coordinates; nothing if it is none, or empty.
+std::optional<SvgShape> read_svg_shape(const pugi::xml_node& element, const SvgSettings& settings);
+
+/// Returns the value that an attribute gives, or else the attribute `style`; empty where neither
+/// does.
+std::string_view svg_style(const pugi::xml_node& element, const char* name,
+                           language::LanguageVersion language);
+
+/// An element that is drawn, and the map to the document's coordinates.
+struct SvgElement {
+  pugi::xml_node node;
+  PlaneMap map;
+};
+
+/// Returns the elements that are drawn, in their order (svg.cpp). Calls take_page(element) with
+/// every `svg` element, and adds problems.
+std::vector<SvgElement> drawn_svg_elements(
+    const pugi::xml_node& root, const std::string& name, const SvgSettings& settings,
+    const std::function<void(const pugi::xml_node&)>& take_page,
+    std::vector<DrawingProblem>& problems);
+
+/// Where a document's coordinates lie, in mm: what OpenSCAD makes of the attributes of `svg`
+/// elements (svg.cpp). If there are several, the last one places all that is drawn.
 class SvgPage {
  public:
   /// `dpi` is that of lengths without a unit.
-  explicit SvgPage(double dpi) : dpi_(dpi) {}
+  SvgPage(double dpi, language::LanguageVersion language) : dpi_(dpi), language_(language) {}
 
   void take(const pugi::xml_node& svg);
 
@@ -80,6 +146,7 @@ class SvgPage {
 
  private:
   double dpi_;
+  language::LanguageVersion language_;
   double height_ = 0;
   Vec2 scale_{1.0};
   Vec2 origin_{0.0};  // of the view box

@@ -16,20 +16,26 @@ constexpr double kPixelsPerInch = 96;  // of CSS
 constexpr double kPointsPerInch = 72;
 constexpr double kPicasPerInch = 6;
 
+using language::LanguageVersion;
+
 struct Length {
   double number = 0;
-  enum class Unit : uint8_t { kNone, kRelative, kMillimetres } unit = Unit::kNone;
+  enum class Unit : uint8_t { kNone, kPercent, kRelative, kMillimetres } unit = Unit::kNone;
 };
 
 /// Returns nothing where the length is missing or cannot be read.
-std::optional<Length> read_length(std::string_view text) {
+std::optional<Length> read_length(std::string_view text, LanguageVersion language) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-  const std::string_view unit(end, static_cast<size_t>(text.data() + text.size() - end));
+  std::string_view unit(end, static_cast<size_t>(text.data() + text.size() - end));
+  if (language == LanguageVersion::k2026) unit = trimmed_svg(unit);
   const auto in_mm = [&](double mm) { return Length{number * mm, Length::Unit::kMillimetres}; };
   if (unit.empty()) return Length{number, Length::Unit::kNone};
+  if (unit == "%" && language == LanguageVersion::k2026) {
+    return Length{number, Length::Unit::kPercent};
+  }
   if (unit == "%" || unit == "em" || unit == "ex") return Length{number, Length::Unit::kRelative};
   if (unit == "mm") return in_mm(1);
   if (unit == "cm") return in_mm(10);
@@ -58,13 +64,20 @@ std::optional<ViewBox> read_view_box(std::string_view text) {
   return ViewBox{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
 }
 
-/// In mm. What is missing has the size of the view box, as if it had no unit; a relative length has
-/// it in mm.
+/// The share of the view box that a length in % is; 1 for others.
+double share_of(const std::optional<Length>& length) {
+  return length && length->unit == Length::Unit::kPercent ? length->number / 100 : 1;
+}
+
+/// In mm. What is missing has the size of the view box, as if it had no unit, or the share of it
+/// that is given; a relative length has it in mm.
 double resolved(const std::optional<Length>& length, double view_box_size, double dpi) {
   if (!length) return view_box_size * kInch / dpi;
   switch (length->unit) {
     case Length::Unit::kNone:
       return length->number * kInch / dpi;
+    case Length::Unit::kPercent:
+      return share_of(length) * view_box_size * kInch / dpi;
     case Length::Unit::kRelative:
       return view_box_size;
     case Length::Unit::kMillimetres:
@@ -125,24 +138,18 @@ std::optional<PlaneMap> transformation(std::string_view name, const std::vector<
   return std::nullopt;
 }
 
-std::string_view trimmed_name(std::string_view text) {
-  while (!text.empty() && is_svg_separator(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_svg_separator(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace
 
 void SvgPage::take(const pugi::xml_node& svg) {
   const std::optional<ViewBox> box = read_view_box(svg.attribute("viewBox").value());
-  const std::optional<Length> width = read_length(svg.attribute("width").value());
-  const std::optional<Length> height = read_length(svg.attribute("height").value());
+  const std::optional<Length> width = read_length(svg.attribute("width").value(), language_);
+  const std::optional<Length> height = read_length(svg.attribute("height").value(), language_);
   height_ = resolved(height, box ? box->size.y : 0, dpi_);
   if (!box) return;
   const Vec2 page(resolved(width, box->size.x, dpi_), height_);
   const Vec2 factors(factor(page.x, box->size.x), factor(page.y, box->size.y));
   const std::string_view align = svg.attribute("preserveAspectRatio").value();
-  origin_ = box->origin;
+  origin_ = box->origin * Vec2(share_of(width), share_of(height));
   scale_ = factors;
   margin_ = Vec2(0.0);
   if (align.starts_with("none")) return;
@@ -166,7 +173,7 @@ PlaneMap read_svg_transform(std::string_view text) {
     if (open == std::string_view::npos) return map;
     const size_t close = text.find(')', open);
     if (close == std::string_view::npos) return map;
-    const std::string_view name = trimmed_name(text.substr(0, open));
+    const std::string_view name = trimmed_svg(text.substr(0, open));
     std::string_view words = text.substr(open + 1, close - open - 1);
     std::vector<double> numbers;
     for (std::string_view word = take_svg_word(words); !word.empty(); word = take_svg_word(words)) {

@@ -72,6 +72,8 @@ class Words {
 
 class PathReader {
  public:
+  explicit PathReader(const SvgChords& chords) : chords_(chords) {}
+
   SvgPath read(std::string_view data) {
     Words words(data);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -170,7 +172,8 @@ class PathReader {
     const EllipseArc arc =
         svg_arc(at_, end, radii, numbers_[2], numbers_[3] != 0, numbers_[4] != 0);
     if (std::isfinite(arc.sweep)) {
-      part(at_).arc_to(arc, svg_arc_pieces(arc.sweep), end);
+      const Vec2 reach(glm::length(arc.u), glm::length(arc.v));
+      part(at_).arc_to(arc, chords_.arc(arc.sweep, reach), end);
     } else {  // on the way to its angles some number is beyond double's
       part(at_).line_to(end);
     }
@@ -201,6 +204,7 @@ class PathReader {
     }
   }
 
+  const SvgChords& chords_;
   SvgPath path_;
   CurvePath part_{Vec2(0.0)};  // where has_part_ is true
   bool has_part_ = false;
@@ -217,7 +221,9 @@ class PathReader {
 
 }  // namespace
 
-SvgPath read_svg_path(std::string_view data) { return PathReader().read(data); }
+SvgPath read_svg_path(std::string_view data, const SvgChords& chords) {
+  return PathReader(chords).read(data);
+}
 
 EllipseArc svg_arc(const Vec2& from, const Vec2& to, Vec2 radii, double rotation_deg, bool is_large,
                    bool is_clockwise_on_paper) {
@@ -248,12 +254,31 @@ EllipseArc svg_arc(const Vec2& from, const Vec2& to, Vec2 radii, double rotation
   return arc;
 }
 
-int svg_arc_pieces(double sweep) {
+double SvgChords::fragments(const Vec2& radii) const {
+  if (!facets_) return 0;
+  return csgcore::fragment_count(std::max(std::abs(radii.x), std::abs(radii.y)), *facets_);
+}
+
+int SvgChords::circle(const Vec2& radii) const {
+  return static_cast<int>(std::max(40.0, fragments(radii)));
+}
+
+double SvgChords::circle_start() const { return facets_ ? kTurn / 4 : 0; }
+
+int SvgChords::arc(double sweep, const Vec2& radii) const {
   constexpr double kPiece = 18 * kDegree;
   constexpr int kMore = 4;
   // Half a turn may be a little less by rounding.
   constexpr double kRounding = 1e-9;
-  return static_cast<int>(std::floor(std::abs(sweep) / kPiece + kRounding)) + kMore;
+  const double turns = std::abs(sweep) / kTurn;
+  const double least = std::floor(turns * (kTurn / kPiece) + kRounding) + kMore;
+  return static_cast<int>(std::max(least, std::ceil(fragments(radii) * turns - kRounding)));
+}
+
+int SvgChords::bezier() const {
+  constexpr double kLeast = 20, kMost = 1 << 30;
+  const double wanted = facets_ && std::isfinite(facets_->fn) ? facets_->fn : 0;
+  return static_cast<int>(std::clamp(wanted, kLeast, kMost));
 }
 
 }  // namespace frontend

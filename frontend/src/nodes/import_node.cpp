@@ -10,8 +10,9 @@ const NodeRow kImportRow{
     .role = Role::kSolid,
     .dimension = 3,
     .label = kImportLabel,
-    .read = [](NodeReader& reader, const NodeSources&) -> NodeData {
-      return names_drawing(reader.tree(), reader.node()) ? NodeData() : read_import(reader);
+    .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
+      if (names_drawing(reader.tree(), reader.node())) return {};
+      return read_import(reader, sources.options.language);
     },
 };
 

@@ -319,7 +319,8 @@ std::optional<SimplePolygons> stroked(const Polygon& path, const StrokeSettings&
   const double reach = reach_of(bounds_of(std::span(&path, 1))) + settings.width;
   // OpenSCAD's whole numbers, as far as the library has them.
   constexpr double kCoarseUnit = 1e-4;
-  const bool is_coarse = settings.is_coarse && reach < std::ldexp(kCoarseUnit, kMostGridBits);
+  const bool is_coarse =
+      settings.chords == StrokeChords::kOf2021 && reach < std::ldexp(kCoarseUnit, kMostGridBits);
   const double unit = is_coarse ? kCoarseUnit : 1;
   Polygon scaled;
   for (const Vec2& point : path) scaled.push_back(point / unit);
@@ -327,9 +328,12 @@ std::optional<SimplePolygons> stroked(const Polygon& path, const StrokeSettings&
   const double half_width = grid.scaled(settings.width / unit / 2);
   constexpr double kMiterLimit = 2;  // the library's own, and OpenSCAD's, too
   constexpr double kCoarseTolerance = 0.25;
-  ClipperLib::ClipperOffset offset(
-      kMiterLimit, is_coarse ? kCoarseTolerance
-                             : half_width * (1 - std::cos(std::numbers::pi / kChordsOfCircle)));
+  // Of the newer library that OpenSCAD 2026 has: a share of the distance.
+  constexpr double kTolerance2026 = 0.002;
+  const double share = settings.chords == StrokeChords::kOf2026
+                           ? kTolerance2026
+                           : 1 - std::cos(std::numbers::pi / kChordsOfCircle);
+  ClipperLib::ClipperOffset offset(kMiterLimit, is_coarse ? kCoarseTolerance : half_width * share);
   offset.AddPaths(grid.paths(std::span(&scaled, 1)), join_type(settings.corners),
                   end_type(settings.ends));
   ClipperLib::Paths result;

@@ -64,6 +64,13 @@ enum class CornerStyle : uint8_t {
 SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, CornerStyle corners,
                              int fragments);
 
+/// Which chords stand for the round ends and corners of a line.
+enum class StrokeChords : uint8_t {
+  kFine,    // that no picture shows
+  kOf2021,  // OpenSCAD 2021.01's, which computes in multiples of 1e-4
+  kOf2026,  // some 50 of a circle
+};
+
 /// How a line is drawn that ends.
 enum class LineEnds : uint8_t {
   kButt,
@@ -75,8 +82,7 @@ struct StrokeSettings {
   double width = 1;  // > 0
   LineEnds ends = LineEnds::kSquare;
   CornerStyle corners = CornerStyle::kSharp;  // those of less than 60° are cut square
-  /// Compute in multiples of 1e-4, as OpenSCAD 2021.01 does.
-  bool is_coarse = false;
+  StrokeChords chords = StrokeChords::kFine;
 };
 
 /// The most crossings of a path that is drawn at all: a ray along it passes thousands of lines, and

@@ -96,15 +96,24 @@ const ImportedDrawing& FileImports::drawing(const DrawingArguments& arguments) {
                               dxf.facets.fn,
                               dxf.facets.fa,
                               dxf.facets.fs,
+                              dxf.facets.tolerance,
                               static_cast<double>(dxf.is_faceted),
                               static_cast<double>(dxf.is_centered),
                               static_cast<double>(svg.is_centered),
                               svg.dpi,
-                              static_cast<double>(svg.is_faceted)};
+                              static_cast<double>(svg.is_faceted),
+                              static_cast<double>(svg.language),
+                              static_cast<double>(svg.id.has_value()),
+                              static_cast<double>(svg.layer.has_value()),
+                              svg.facets.fn,
+                              svg.facets.fa,
+                              svg.facets.fs,
+                              svg.facets.tolerance};
   // No nan, which equals nothing.
   for (double& number : numbers) number = std::isnan(number) ? 0 : number;
-  const auto [entry, is_new] =
-      drawings_.try_emplace({arguments.file, dxf.layer, std::move(numbers)});
+  std::vector<std::string> texts{arguments.file, dxf.layer, svg.id.value_or(""),
+                                 svg.layer.value_or("")};
+  const auto [entry, is_new] = drawings_.try_emplace({std::move(texts), std::move(numbers)});
   if (is_new) entry->second = read_drawing(arguments);
   return entry->second;
 }

@@ -56,8 +56,8 @@ class FileImports {
   PolyhedronPool& pool_;
   /// By the file and the settings.
   std::map<std::tuple<std::string, bool, bool>, ImportedFile> imports_, surfaces_;
-  /// By the file and all settings; two texts, and numbers.
-  std::map<std::tuple<std::string, std::string, std::vector<double>>, ImportedDrawing> drawings_;
+  /// By the file and all settings: texts, and numbers.
+  std::map<std::pair<std::vector<std::string>, std::vector<double>>, ImportedDrawing> drawings_;
   std::set<std::string> paths_;
 };
 

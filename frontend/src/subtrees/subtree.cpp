@@ -6,10 +6,11 @@ namespace {
 const ImportedDrawing* drawing_of(NodeReader& reader, const NodeSources& sources,
                                   FileImports& files) {
   if (!names_drawing(reader.tree(), reader.node())) return nullptr;
-  DrawingArguments arguments = read_drawing(reader);
+  DrawingArguments arguments = read_drawing(reader, sources.options.language);
   arguments.dxf.facets = chosen(sources, arguments.dxf.facets);
   arguments.dxf.is_faceted = keeps_facets(sources.options, arguments.dxf.facets);
-  // OpenSCAD's chords of an SVG do not depend on $fn: none is meant to be a polygon.
+  arguments.svg.facets = chosen(sources, arguments.svg.facets);
+  // $fn only adds chords to an SVG's curves, if anything: none is meant to be a polygon.
   arguments.svg.is_faceted = sources.options.facets == Facets::kAll;
   const ImportedDrawing& drawing = files.drawing(arguments);
   for (const DrawingProblem& problem : drawing.problems) {

@@ -42,7 +42,7 @@ testing::AssertionResult has_box(const std::string& text, const Vec2& min, const
 }
 
 const std::string kBar = "<rect x=\"1\" y=\"2\" width=\"10\" height=\"5\"/>";
-constexpr SvgSettings kFaceted{.is_faceted = true};
+const SvgSettings kFaceted{.is_faceted = true};
 
 TEST(SvgPage, PlacesDrawingsByTheirSize) {
   EXPECT_TRUE(has_box(svg(kBar), {1, -7}, {11, -2}));
@@ -227,6 +227,159 @@ TEST(Svg, IsReadWithoutRecursion) {
   text += kBar;
   for (int i = 0; i < kDepth; ++i) text += "</g>";
   EXPECT_NEAR(filled_area(svg(text)), 50, 1e-6);
+}
+
+// By 2026's rules: what OpenSCAD 2025.07.18 makes of the same files was looked at.
+
+SvgSettings of_2026(const char* id = nullptr, const char* layer = nullptr) {
+  SvgSettings settings{.language = language::LanguageVersion::k2026};
+  if (id != nullptr) settings.id = id;
+  if (layer != nullptr) settings.layer = layer;
+  return settings;
+}
+
+TEST(Svg2026, DrawsUsesOfWhatIsDefinedBefore) {
+  const std::string defs =
+      "<defs><g transform=\"scale(9)\"><rect id=\"r\" x=\"10\" y=\"10\" width=\"30\" "
+      "height=\"20\"/></g><text id=\"t\">x</text></defs>";
+  EXPECT_TRUE(
+      has_box(svg(defs + "<use href=\"#r\" x=\"5\" y=\"7\"/>"), {15, -37}, {45, -17}, of_2026()));
+  EXPECT_TRUE(has_box(svg(defs + "<g transform=\"translate(1, 2)\"><use xlink:href=\"#r\" "
+                                 "transform=\"scale(2)\" x=\"5\" y=\"7\"/></g>"),
+                      {31, -76}, {91, -36}, of_2026()));
+  for (const char* const use : {"<use href=\"#no\"/>", "<use/>", "<use href=\"#t\"/>",
+                                "<use href=\"#r\" display=\"none\"/>"}) {
+    EXPECT_THAT(read_one(svg(defs + use), of_2026()).figures, IsEmpty()) << use;
+    EXPECT_THAT(read_one(svg(defs + use), of_2026()).problems, IsEmpty()) << use;
+  }
+  EXPECT_THAT(read_one(svg("<use href=\"#r\"/>" + defs), of_2026()).figures, IsEmpty());
+  EXPECT_NEAR(
+      filled_area(svg("<rect id=\"r\" width=\"3\" height=\"3\"/><use href=\"#r\" x=\"9\"/>"),
+                  of_2026()),
+      9, 1e-6);
+  EXPECT_THAT(read_one(svg(defs + "<use href=\"#r\"/>")).figures, IsEmpty()) << "2021.01";
+  const Drawing wrong = read_one(svg(defs + "<use id=\"u\" href=\"r\"/>"), of_2026());
+  ASSERT_THAT(wrong.problems, SizeIs(1));
+  EXPECT_THAT(wrong.problems[0].what, HasSubstr("Error in element type use with id: u"));
+}
+
+TEST(Svg2026, DrawsUsesOfUses) {
+  EXPECT_TRUE(has_box(svg("<defs><rect id=\"a\" width=\"1\" height=\"1\"/><g id=\"b\"><use "
+                          "href=\"#a\" x=\"10\"/></g></defs><use href=\"#b\" y=\"20\"/>"),
+                      {10, -21}, {11, -20}, of_2026()));
+  // What uses itself is drawn once.
+  EXPECT_NEAR(filled_area(svg("<defs><g id=\"a\"><use href=\"#a\" x=\"5\"/><rect width=\"1\" "
+                              "height=\"1\"/></g></defs><use href=\"#a\"/>"),
+                          of_2026()),
+              1, 1e-6);
+  std::string laughs = "<rect id=\"l0\" width=\"1\" height=\"1\"/>";
+  for (int level = 1; level < 40; ++level) {
+    laughs += "<g id=\"l" + std::to_string(level) + "\">";
+    for (int i = 0; i < 10; ++i) laughs += "<use href=\"#l" + std::to_string(level - 1) + "\"/>";
+    laughs += "</g>";
+  }
+  const Drawing drawing =
+      read_one(svg("<defs>" + laughs + "</defs><use href=\"#l39\"/>" + kBar), of_2026());
+  ASSERT_FALSE(drawing.problems.empty());
+  EXPECT_THAT(drawing.problems[0].what, HasSubstr("they draw too much"));
+}
+
+TEST(Svg2026, LeavesOutWhatIsNotDisplayed) {
+  for (const char* const hidden :
+       {"display=\"none\"", "style=\"display:none\"", "style=\"fill:red; display: none;\""}) {
+    const std::string bar = "<rect width=\"3\" height=\"3\" " + std::string(hidden) + "/>";
+    const std::string group = "<g " + std::string(hidden) + "><g>" + kBar + "</g></g>";
+    EXPECT_THAT(read_one(svg(bar + group), of_2026()).figures, IsEmpty()) << hidden;
+  }
+  EXPECT_NEAR(filled_area(svg("<g display=\"none\">" + kBar + "</g>")), 50, 1e-6) << "2021.01";
+  EXPECT_NEAR(filled_area(svg("<g visibility=\"hidden\">" + kBar + "</g>"), of_2026()), 50, 1e-6);
+  EXPECT_NEAR(filled_area(svg("<a display=\"none\">" + kBar + "</a>"), of_2026()), 50, 1e-6);
+}
+
+TEST(Svg2026, DrawsTheElementsOfAnId) {
+  const std::string text =
+      svg("<g id=\"g\" transform=\"translate(5,0)\"><rect id=\"a\" width=\"3\" height=\"3\"/>"
+          "<g id=\"h\" display=\"none\"><rect id=\"b\" x=\"9\" width=\"2\" height=\"2\"/></g></g>"
+          "<rect id=\"a\" x=\"50\" width=\"5\" height=\"1\"/>"
+          "<defs><rect id=\"d\" width=\"7\" height=\"1\"/></defs><use id=\"u\" href=\"#d\"/>");
+  EXPECT_NEAR(filled_area(text, of_2026("a")), 14, 1e-6);
+  EXPECT_NEAR(filled_area(text, of_2026("g")), 9, 1e-6);
+  EXPECT_NEAR(filled_area(text, of_2026("h")), 4, 1e-6) << "it is shown if it is asked for";
+  EXPECT_TRUE(has_box(text, {14, -2}, {16, 0}, of_2026("b")));
+  EXPECT_NEAR(filled_area(text, of_2026("d")), 7, 1e-6);
+  EXPECT_NEAR(filled_area(text, of_2026("u")), 7, 1e-6);
+  SvgSettings centered = of_2026("b");
+  centered.is_centered = true;
+  EXPECT_TRUE(has_box(text, {-1, -1}, {1, 1}, centered));
+  const Drawing none = read_one(text, of_2026("no"));
+  EXPECT_THAT(none.figures, IsEmpty());
+  ASSERT_THAT(none.problems, SizeIs(1));
+  EXPECT_EQ(none.problems[0].what, "import() filter id = \"no\" did not match anything");
+}
+
+TEST(Svg2026, DrawsLayersOfInkscape) {
+  const std::string layer = "<g inkscape:groupmode=\"layer\" inkscape:label=";
+  const std::string text =
+      svg(layer + "\"L1\" display=\"none\"><rect id=\"a\" width=\"3\" height=\"3\"/>" + layer +
+          "\"L2\"><rect x=\"9\" width=\"2\" height=\"2\"/></g></g><g inkscape:label=\"L3\">" +
+          kBar + "</g><rect id=\"a\" width=\"90\" height=\"9\"/>");
+  EXPECT_NEAR(filled_area(text, of_2026(nullptr, "L1")), 13, 1e-6);
+  EXPECT_NEAR(filled_area(text, of_2026(nullptr, "L2")), 4, 1e-6);
+  EXPECT_NEAR(filled_area(text, of_2026("a", "L1")), 9, 1e-6);
+  EXPECT_THAT(read_one(text, of_2026(nullptr, "L3")).figures, IsEmpty()) << "it is no layer";
+  const Drawing none = read_one(text, of_2026("a", "L2"));
+  ASSERT_THAT(none.problems, SizeIs(1));
+  EXPECT_EQ(none.problems[0].what,
+            "import() filter id = \"a\", layer = \"L2\" did not match anything");
+}
+
+TEST(Svg2026, HasPagesInPercent) {
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"50%\" height=\"50 %\" viewBox=\"0 0 100 100\""),
+                      {0.176389, 16.404167}, {1.940278, 17.286111}, of_2026()));
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"20mm\" height=\"50 mm\""), {1, 43}, {11, 48}, of_2026()));
+  // The view box's corner has the same share.
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"50%\" height=\"100%\" viewBox=\"5 0 200 100\""),
+                      {-0.75, 71.5}, {4.25, 74},
+                      {.dpi = 25.4, .language = language::LanguageVersion::k2026}));
+}
+
+TEST(Svg2026, HasButtEnds) {
+  const std::string line = "<line x1=\"0\" y1=\"0\" x2=\"10\" y2=\"0\" ";
+  EXPECT_NEAR(filled_area(svg(line + "/>"), of_2026()), 10, 1e-4);
+  EXPECT_NEAR(
+      filled_area(svg(line + "style=\"fill:red; stroke-width: 2 ;stroke-linecap: square\"/>"),
+                  of_2026()),
+      24, 1e-4);
+}
+
+TEST(Svg2026, HasChordsByItsSettings) {
+  const auto corners = [](const std::string& content, csgcore::FacetSettings facets) {
+    SvgSettings settings = of_2026();
+    settings.is_faceted = true;
+    settings.facets = facets;
+    return chords_of(read_one(svg(content), settings).figures.front()).front().size();
+  };
+  const std::string circle = "<circle r=\"20\"/>", arc = "<path d=\"M10,10 A30,30 0 1 1 60,10z\"/>",
+                    curve = "<path d=\"M10,10 C20,40 50,40 60,10z\"/>",
+                    bar = "<rect width=\"30\" height=\"20\" rx=\"4\"/>";
+  EXPECT_EQ(corners(circle, {.fn = 6}), 40);
+  EXPECT_EQ(corners(circle, {.fn = 100}), 100);
+  EXPECT_EQ(corners(circle, {.fa = 2, .fs = 1}), 126);
+  EXPECT_EQ(corners(curve, {.fn = 6}), 21);
+  EXPECT_EQ(corners(curve, {.fn = 24.7}), 25);
+  EXPECT_EQ(corners(curve, {.fa = 1, .fs = 0.1}), 21);
+  EXPECT_EQ(corners(arc, {.fn = 6}), 18);
+  EXPECT_EQ(corners(arc, {}), 22);
+  EXPECT_EQ(corners(arc, {.fa = 1, .fs = 1}), 131);
+  EXPECT_EQ(corners(bar, {.fn = 100}), 104);
+  // A circle's corners begin at the bottom of the page, where x grows.
+  SvgSettings settings = of_2026();
+  settings.is_faceted = true;
+  settings.facets.fn = 50;
+  EXPECT_TRUE(has_box(svg(circle), {-19.9605, -20}, {19.9605, 20}, settings));
+  settings.facets = {.fn = 1e9};
+  EXPECT_THAT(chords_of(read_one(svg(circle + circle), settings).figures.front()).front(),
+              SizeIs(testing::Lt(size_t{1} << 22)));
 }
 
 TEST(DisjointFigures, AreOneOutlineWhereTheyDoNotMeet) {

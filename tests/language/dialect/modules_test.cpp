@@ -79,6 +79,16 @@ TEST(Modules, TextsAndFiles) {
   expect_warning("text(\"a\") cube()", "module text() does not support child modules");
 }
 
+TEST(Modules, ImportWritesTheIdAndLayerThatAreGiven) {
+  const std::string rest =
+      "origin = [0, 0], dpi = 72, scale = 1, center = true, convexity = 1, $fn = 0, $fa = 12, $fs "
+      "= 2, timestamp = 0)";
+  expect_node("import(\"no.svg\", id = \"\", layer = \"\", center = true)",
+              "import(file = \"no.svg\", id = \"\", layer = \"\", " + rest);
+  expect_node("import(\"no.svg\", id = undef, layer = undef, center = true)",
+              "import(file = \"no.svg\", " + rest);
+}
+
 TEST(Modules, PointsAreChecked) {
   expect_node("polygon([[0, 0], [1, \"a\"], [-0, 1e-7]], [[0, 1, 5], 3])",
               "polygon(points = [[0, 0], [0, 0], [-0, 1e-07]], paths = [[0, 1]], convexity = 1)");

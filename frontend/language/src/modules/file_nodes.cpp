@@ -113,8 +113,8 @@ Made make_import_2026(const BuiltinCall& call, NodeTree& tree) {
   const double scale = number_or(given[kScale], 0);
   const double dpi = read_dpi(call, given[kDpi], given[kOrigin]);
   add_escaped(tree, "file", file.path);
-  if (!id.empty()) add_escaped(tree, "id", id);
-  if (!layer.empty()) add_escaped(tree, "layer", layer);
+  if (is_given(given[kId])) add_escaped(tree, "id", id);
+  if (is_given(given[kLayer]) || is_given(given[kLayername])) add_escaped(tree, "layer", layer);
   add_numbers(tree, "origin", {x, y});
   if (is_svg(file.path)) add(tree, "dpi", dpi);
   add(tree, "scale", scale <= 0 ? 1 : scale);
