@@ -56,6 +56,14 @@ constexpr std::string_view kWords[] = {
     "c",
     "rotate(1e9)",
     "stroke-width=\"1e30\" ",
+    "<defs>",
+    "</defs>",
+    "<use href=\"#a\"/>",
+    " id=\"a\"",
+    " display=\"none\"",
+    "50%",
+    " 255 0.5 0",
+    " pid=\"1\" p1=\"1\"",
     "0\nINSERT\n2\nb\n10\n0\n20\n0\n",
     "0\nENDSEC\n",
     "vertex 0 0 ",
@@ -81,6 +89,15 @@ const std::string kSvg =
     "<polyline points=\"0,0 9,1 3,8 7,2\" stroke-width=\"2\" stroke-linecap=\"round\" "
     "stroke-linejoin=\"round\"/><line x1=\"1\" y1=\"2\" x2=\"9\" y2=\"3\" "
     "style=\"stroke-width:3;stroke-linejoin:bevel\"/><polygon points=\"1,1 5,1 3,4\"/></svg>";
+const std::string kUses =
+    "<svg width=\"50%\" viewBox=\"5 0 40 30\"><defs><rect id=\"r\" width=\"9\" height=\"5\"/><g "
+    "id=\"a\"><use href=\"#r\" x=\"3\"/><use xlink:href=\"#r\" "
+    "transform=\"rotate(30)\"/></g></defs><g "
+    "inkscape:groupmode=\"layer\" inkscape:label=\"L\"><use id=\"u\" href=\"#a\" y=\"2\"/><path "
+    "d=\"M1,1 h5 A2,3 10 0 1 7,7 z\" display=\"none\"/></g><circle id=\"c\" r=\"3\"/></svg>";
+const std::string kColoredOff =
+    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1 255 0 0\n3 0 1 3 0 0.5 1.0 0.25\n3 0 3 2 7\n"
+    "3 1 2 3 # none\n";
 const std::string kDxf =
     "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n0\nLINE\n10\n0\n20\n0\n11\n3\n21\n0\n0\nENDBLK\n0\n"
     "ENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n10\n9\n20\n0\n10\n5\n20\n"
@@ -99,13 +116,14 @@ class MutatedImports : public testing::Test {
   ~MutatedImports() override { std::filesystem::remove_all(folder_); }
 
   /// Damages the file that a design reads under that name.
-  void run(const std::string& name, const std::string& content, const std::string& design) {
+  void run(const std::string& name, const std::string& content, const std::string& design,
+           language::LanguageVersion language = language::LanguageVersion::k2021) {
     SCOPED_TRACE(name);
     fuzz::for_each_damaged(kWords, {&content, 1}, kSample, [&](const std::string& damaged) {
       std::ofstream(folder_ + '/' + name, std::ios::binary) << damaged;
       const std::clock_t start = std::clock();
       const frontend::DesignTree tree = frontend::parse(design, "fuzz.csg");
-      const auto import = frontend::import_design(tree, {.folder = folder_});
+      const auto import = frontend::import_design(tree, {.language = language, .folder = folder_});
       constexpr double kMost_s = 10;  // under sanitizers; 2 without
       ASSERT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kMost_s);
       for (const frontend::Warning& warning : import.warnings) {
@@ -123,6 +141,19 @@ TEST_F(MutatedImports, OfSolidsAreReadOrToldOf) {
                                  "step_zipped.amf", "step.3mf", "frame.nef3"}) {
     run(name, content_of(name), "import(\"" + name + "\");");
   }
+}
+
+TEST_F(MutatedImports, Of2026AreReadOrToldOf) {
+  constexpr language::LanguageVersion k2026 = language::LanguageVersion::k2026;
+  for (const std::string name : {"step.off", "step.amf", "step_zipped.amf", "step.3mf"}) {
+    run(name, content_of(name), "import(\"" + name + "\");", k2026);
+  }
+  run("a.off", kColoredOff, "import(\"a.off\");", k2026);
+  run("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1/1 2/2 4/3\nf -4 4 3\nf 2 3 4\n",
+      "import(\"a.obj\", center = true);", k2026);
+  run("a.svg", kUses, "import(\"a.svg\");", k2026);
+  run("a.svg", kUses, "import(\"a.svg\", id = \"a\", layer = \"L\", $fn = 100);", k2026);
+  run("a.svg", kSvg, "linear_extrude(height = 2) { import(\"a.svg\"); }", k2026);
 }
 
 TEST_F(MutatedImports, OfHeightsAreReadOrToldOf) {

@@ -126,7 +126,8 @@ void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
 
 Collector::Collector(const DesignTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
-      files(options.folder, polyhedra),
+      files(options.folder, polyhedra,
+            options.picture != PictureKind::kRendered || options.keeps_colors),
       fonts(options.font_files),
       tree_(*tree.nodes),
       options_(options),
@@ -318,7 +319,7 @@ void Collector::add_solid(uint32_t index) {
   const Context& context = contexts_.back();
   std::optional<SolidShape> shape = read_solid(index);
   if (!shape || context.flattened) return;
-  auto& [primitive, facets, faces, file] = *shape;
+  auto& [primitive, facets, faces, file, color] = *shape;
   primitive.local_to_world = compose(frames[context.frame].to_world, primitive.local_to_world);
   uint32_t frame = context.frame;
   if (primitive.local_to_world.determinant() == 0 && fit_of(primitive) == Fit::kFlat) {
@@ -336,11 +337,11 @@ void Collector::add_solid(uint32_t index) {
                         : 0;
   primitive_of[index] =
       add_primitive(std::move(primitive), index, context, typed_frame(index, frame), box, count);
+  if (primitive_of[index] == kNoPrimitive) return;
+  if (!primitives.back().color) primitives.back().color = color;
   const bool is_inside_out =
       options_.picture == PictureKind::kThrownTogether && faces != nullptr && faces->is_inside_out;
-  if (is_inside_out && primitive_of[index] != kNoPrimitive) {
-    primitives.back().color = kSeenFromWithin;
-  }
+  if (is_inside_out) primitives.back().color = kSeenFromWithin;
 }
 
 /// Makes a sheet in the world's coordinates of a solid that its matrix flattens, as OpenSCAD maps

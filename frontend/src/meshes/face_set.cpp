@@ -221,12 +221,25 @@ uint64_t tidy(FaceSet& faces) {
       kept_corners = begin;
       continue;
     }
-    if (!are_triangles) faces.ends[kept_faces++] = kept_corners;
+    if (!faces.colors.empty()) faces.colors[kept_faces] = faces.colors[i];
+    if (!are_triangles) faces.ends[kept_faces] = kept_corners;
+    ++kept_faces;
   }
   faces.corners.resize(kept_corners);
   if (!are_triangles) faces.ends.resize(kept_faces);
+  if (!faces.colors.empty()) faces.colors.resize(kept_faces);
   faces.points = renumber.take_points();
   return not_finite;
+}
+
+std::optional<csgcore::Color> take_common_color(FaceSet& faces) {
+  const auto& colors = faces.colors;
+  if (colors.empty()) return std::nullopt;
+  const auto differs = [&](const auto& color) { return color != colors.front(); };
+  if (std::any_of(colors.begin(), colors.end(), differs)) return std::nullopt;
+  const std::optional<csgcore::Color> color = colors.front();
+  faces.colors.clear();
+  return color;
 }
 
 double enclosed_volume(const FaceSet& faces) {
@@ -251,6 +264,13 @@ csgcore::Mesh to_mesh(const FaceSet& faces) {
 }
 
 std::vector<Triangle> triangles_of(const FaceSet& faces) {
+  std::vector<std::optional<csgcore::Color>> colors;
+  return triangles_of(faces, colors);
+}
+
+std::vector<Triangle> triangles_of(const FaceSet& faces,
+                                   std::vector<std::optional<csgcore::Color>>& colors) {
+  colors.clear();
   std::vector<Triangle> triangles;
   triangles.reserve(faces.corners.size() - 2 * faces.face_count());
   std::vector<glm::dvec2> places;
@@ -259,11 +279,12 @@ std::vector<Triangle> triangles_of(const FaceSet& faces) {
     const std::span<const uint32_t> face = faces.face(i);
     if (face.size() == 3) {
       triangles.push_back({face[0], face[1], face[2]});
-      continue;
+    } else {
+      const auto end = static_cast<uint32_t>(face.size());
+      project(faces.points, face, {&end, 1}, places);
+      triangulate(face, places, triangles);
     }
-    const auto end = static_cast<uint32_t>(face.size());
-    project(faces.points, face, {&end, 1}, places);
-    triangulate(face, places, triangles);
+    if (!faces.colors.empty()) colors.resize(triangles.size(), faces.colors[i]);
   }
   return triangles;
 }

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "csgcore/color.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/triangle_mesh.hpp"
@@ -20,6 +22,8 @@ struct FaceSet {
   std::vector<csgcore::Vec3> points;
   std::vector<uint32_t> corners;  // points by their indices, face by face
   std::vector<uint32_t> ends;  // by face: one past its last corner. Empty: all have three corners
+  /// By face; empty: no face has a colour of its own.
+  std::vector<std::optional<csgcore::Color>> colors{};
 
   size_t face_count() const { return ends.empty() ? corners.size() / 3 : ends.size(); }
   std::span<const uint32_t> face(size_t index) const;
@@ -31,6 +35,9 @@ struct FaceSet {
 /// faces with fewer than three corners, or with a point that is not finite. Returns how many faces
 /// were not finite.
 uint64_t tidy(FaceSet& faces);
+
+/// Takes the colours away if they are all the same, and returns that one.
+std::optional<csgcore::Color> take_common_color(FaceSet& faces);
 
 /// Projects a face along an axis (frontend/OPENSCAD.md, "Polyhedra"). `places` becomes
 /// the places of its corners in that plane, in which it runs counterclockwise. `ends` has one past
@@ -48,6 +55,9 @@ csgcore::Mesh to_mesh(const FaceSet& faces);
 /// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along an axis
 /// (frontend/OPENSCAD.md, "Polyhedra"), and triangulates it there (triangulation.hpp).
 std::vector<csgcore::TriangleMesh::Triangle> triangles_of(const FaceSet& faces);
+/// Does the same. `colors` becomes the colours of the triangles; empty if the faces have none.
+std::vector<csgcore::TriangleMesh::Triangle> triangles_of(
+    const FaceSet& faces, std::vector<std::optional<csgcore::Color>>& colors);
 
 /// Faces that may have holes. Each is bounded by rings of points: those around it run
 /// counterclockwise as seen from outside, those around its holes clockwise.

@@ -22,6 +22,9 @@ struct SolidFile {
 SolidFile read_stl(std::string_view bytes, const std::string& name);
 /// OFF with or without colours and normals, which are ignored.
 SolidFile read_off(std::string_view bytes, const std::string& name);
+/// OFF by OpenSCAD 2026's rules: behind a face's corners r, g, b and perhaps alpha may stand, each
+/// in 255ths, or as a share if it has a point. A corner without a point is left out, and told of.
+SolidFile read_colored_off(std::string_view bytes, const std::string& name);
 /// AMF, perhaps within a zip archive: the meshes of all objects. Units, colours and constellations
 /// are ignored.
 SolidFile read_amf(std::string_view bytes, const std::string& name);
@@ -29,8 +32,8 @@ SolidFile read_amf(std::string_view bytes, const std::string& name);
 /// 2021.01.
 SolidFile read_3mf(std::string_view bytes, const std::string& name);
 /// 3MF by OpenSCAD 2026's rules: what its build is made of, by meshes and components under their
-/// transformations. Units are ignored. One that repeats parts so often that there would be more
-/// than 2^22 points cannot be read.
+/// transformations, with the colours of base materials and of colour groups. Units are ignored. One
+/// that repeats parts so often that there would be more than 2^22 points cannot be read.
 SolidFile read_built_3mf(std::string_view bytes, const std::string& name);
 /// OBJ: its points and faces. A line that cannot be read is left out, and so is a corner that names
 /// no point; the problem tells of the first.

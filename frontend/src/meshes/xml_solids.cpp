@@ -1,9 +1,13 @@
 // AMF and 3MF: XML with the vertices and triangles of objects, within a zip archive (AMF: perhaps).
 
 #include <array>
+#include <charconv>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <pugixml.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -180,54 +184,186 @@ csgcore::Affine transform_of(const pugi::xml_node& node) {
   return map;
 }
 
-/// Puts together what the build of a 3MF model names.
-class BuiltModel {
+/// The colours that the objects of a 3MF model name.
+class ModelColors {
  public:
-  explicit BuiltModel(const pugi::xml_node& model) : model_(model) {
+  using FaceColor = std::optional<csgcore::Color>;
+
+  explicit ModelColors(const pugi::xml_node& model) {
     for_each_child(model, "resources", [&](const pugi::xml_node& resources) {
+      for_each_child(resources, "basematerials",
+                     [&](const pugi::xml_node& group) { add(group, "base", "displaycolor"); });
+      for_each_child(resources, "colorgroup",
+                     [&](const pugi::xml_node& group) { add(group, "color", "color"); });
+    });
+  }
+
+  /// Returns the colour of a triangle: its own, or else its object's. Between different colours of
+  /// a group it is their mean.
+  FaceColor of(const pugi::xml_node& triangle, const pugi::xml_node& object) const {
+    const std::string_view own = triangle.attribute("pid").value();
+    const auto group = groups_.find(own.empty() ? object.attribute("pid").value() : own);
+    if (group == groups_.end()) return std::nullopt;
+    if (own.empty()) return at(group->second, object.attribute("pindex"), 0);
+    const FaceColor a = at(group->second, triangle.attribute("p1"), kNone);
+    if (group->second.are_materials || !a) return a;
+    const uint32_t first = index_of(trimmed(triangle.attribute("p1").value())).value_or(kNone);
+    const FaceColor b = at(group->second, triangle.attribute("p2"), first),
+                    c = at(group->second, triangle.attribute("p3"), first);
+    if (!b || !c) return std::nullopt;
+    return csgcore::Color{(a->r + b->r + c->r) / 3, (a->g + b->g + c->g) / 3,
+                          (a->b + b->b + c->b) / 3, (a->a + b->a + c->a) / 3};
+  }
+
+ private:
+  struct Group {
+    bool are_materials = false;  // whose alpha does not count
+    std::vector<FaceColor> colors;
+  };
+
+  /// Reads #RRGGBB or #RRGGBBAA.
+  static FaceColor color_of(std::string_view text) {
+    if (!text.starts_with('#') || (text.size() != 7 && text.size() != 9)) return std::nullopt;
+    std::array<float, 4> channels{0, 0, 0, 1};
+    for (size_t i = 0; 2 * i + 1 < text.size(); ++i) {
+      unsigned value = 0;
+      const char* const end = text.data() + 2 * i + 3;
+      if (std::from_chars(text.data() + 2 * i + 1, end, value, 16).ptr != end) return std::nullopt;
+      channels[i] = static_cast<float>(value) / 255;
+    }
+    return csgcore::Color{channels[0], channels[1], channels[2], channels[3]};
+  }
+
+  static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+  static FaceColor at(const Group& group, const pugi::xml_attribute& index, uint32_t otherwise) {
+    const uint32_t place = index ? index_of(trimmed(index.value())).value_or(kNone) : otherwise;
+    return place < group.colors.size() ? group.colors[place] : std::nullopt;
+  }
+
+  void add(const pugi::xml_node& node, std::string_view child, const char* attribute) {
+    Group group;
+    group.are_materials = child == "base";
+    for_each_child(node, child, [&](const pugi::xml_node& entry) {
+      FaceColor color = color_of(entry.attribute(attribute).value());
+      if (color && group.are_materials) color->a = 1;
+      group.colors.push_back(color);
+    });
+    groups_.try_emplace(node.attribute("id").value(), std::move(group));
+  }
+
+  std::map<std::string, Group, std::less<>> groups_;  // by their ids
+};
+
+/// A model of a 3MF package, and what it defines.
+struct ThreeMfModel {
+  explicit ThreeMfModel(std::unique_ptr<pugi::xml_document> of)
+      : document(std::move(of)), colors(document->document_element()) {
+    for_each_child(document->document_element(), "resources", [&](const pugi::xml_node& resources) {
       for_each_child(resources, "object", [&](const pugi::xml_node& object) {
-        objects_.try_emplace(object.attribute("id").value(), object);
+        objects.try_emplace(object.attribute("id").value(), object);
       });
     });
   }
 
-  /// Returns false if an object is missing, or a mesh is damaged, or there would be too much.
+  std::unique_ptr<pugi::xml_document> document;
+  ModelColors colors;
+  std::map<std::string, pugi::xml_node> objects;  // by their ids
+};
+
+/// Puts together what the build of a package's model names. Objects may stand in other models of
+/// the package (3MF's production extension).
+class BuiltModel {
+ public:
+  explicit BuiltModel(ZipArchive& archive, size_t bytes)
+      : archive_(archive), bytes_left_(kFreeBytes + kMostGrowth * bytes) {}
+
+  /// Returns false if a model or an object is missing, or a mesh is damaged, or there would be too
+  /// much.
   bool read(FaceSet& faces) {
-    for_each_child(model_, "build", [&](const pugi::xml_node& build) {
-      for_each_child(build, "item", [&](const pugi::xml_node& item) { open(item, {}); });
+    const ThreeMfModel* const main = model(model_name(archive_));
+    if (main == nullptr) return false;
+    for_each_child(main->document->document_element(), "build", [&](const pugi::xml_node& build) {
+      for_each_child(build, "item", [&](const pugi::xml_node& item) { open(item, *main, {}); });
     });
     while (is_right_ && !parts_.empty()) {
       const Part part = parts_.back();
       parts_.pop_back();
       for_each_child(part.object, "mesh",
-                     [&](const pugi::xml_node& mesh) { add(mesh, part.map, faces); });
+                     [&](const pugi::xml_node& mesh) { add(mesh, part, faces); });
       for_each_child(part.object, "components", [&](const pugi::xml_node& components) {
-        for_each_child(components, "component",
-                       [&](const pugi::xml_node& component) { open(component, part.map); });
+        for_each_child(components, "component", [&](const pugi::xml_node& component) {
+          open(component, *part.model, part.map);
+        });
       });
     }
     return is_right_;
   }
 
  private:
-  static constexpr size_t kMostPoints = size_t{1} << 22;
-  static constexpr size_t kMostParts = size_t{1} << 16;  // which may name themselves, too
+  // What parts of a package may take together; zip_archive.cpp has the same for one part.
+  static constexpr size_t kFreeBytes = size_t{64} << 20, kMostGrowth = 64;
+  static constexpr size_t kMostRepeated = size_t{1} << 23;  // points and triangles
+  static constexpr size_t kMostParts = size_t{1} << 16;     // which may name themselves, too
 
   struct Part {
+    const ThreeMfModel* model;
     pugi::xml_node object;
     csgcore::Affine map;
   };
 
-  void open(const pugi::xml_node& reference, const csgcore::Affine& around) {
-    const auto object = objects_.find(reference.attribute("objectid").value());
-    is_right_ = is_right_ && object != objects_.end() && ++part_count_ <= kMostParts;
-    if (is_right_) parts_.push_back({object->second, compose(around, transform_of(reference))});
+  /// Returns the package's model of that name; null if it is missing or damaged.
+  const ThreeMfModel* model(const std::string& name) {
+    const auto [entry, is_new] = models_.try_emplace(name);
+    if (!is_new) return entry->second.get();
+    const std::optional<std::string> text = archive_.unpack(name, bytes_left_);
+    if (!text) return nullptr;
+    bytes_left_ -= text->size();
+    auto document = std::make_unique<pugi::xml_document>();
+    if (!document->load_buffer(text->data(), text->size())) return nullptr;
+    entry->second = std::make_unique<const ThreeMfModel>(std::move(document));
+    return entry->second.get();
   }
 
-  void add(const pugi::xml_node& mesh, const csgcore::Affine& map, FaceSet& faces) {
-    const size_t first_point = faces.points.size(), first_corner = faces.corners.size();
-    is_right_ = is_right_ && read_mesh(mesh, faces) && faces.points.size() <= kMostPoints;
+  /// Returns the name of the model that an item or a component names; empty: it names none.
+  static std::string_view path_of(const pugi::xml_node& reference) {
+    for (const pugi::xml_attribute& attribute : reference.attributes()) {
+      const std::string_view name = attribute.name();
+      if (!name.ends_with(":path")) continue;
+      const std::string_view path = attribute.value();
+      return path.substr(path.starts_with('/') ? 1 : 0);
+    }
+    return {};
+  }
+
+  void open(const pugi::xml_node& reference, const ThreeMfModel& within,
+            const csgcore::Affine& around) {
     if (!is_right_) return;
+    const std::string_view path = path_of(reference);
+    const ThreeMfModel* const from = path.empty() ? &within : model(std::string(path));
+    is_right_ = from != nullptr && ++part_count_ <= kMostParts;
+    if (!is_right_) return;
+    const auto object = from->objects.find(reference.attribute("objectid").value());
+    is_right_ = object != from->objects.end();
+    if (!is_right_) return;
+    parts_.push_back({from, object->second, compose(around, transform_of(reference))});
+  }
+
+  void add(const pugi::xml_node& mesh, const Part& part, FaceSet& faces) {
+    const csgcore::Affine& map = part.map;
+    const size_t first_point = faces.points.size(), first_corner = faces.corners.size();
+    is_right_ = is_right_ && read_mesh(mesh, faces);
+    const bool is_first = added_.insert(mesh.internal_object()).second;
+    if (!is_first) {
+      repeated_ += faces.points.size() - first_point + (faces.corners.size() - first_corner) / 3;
+    }
+    is_right_ = is_right_ && repeated_ <= kMostRepeated;
+    if (!is_right_) return;
+    for_each_child(mesh, "triangles", [&](const pugi::xml_node& triangles) {
+      for_each_child(triangles, "triangle", [&](const pugi::xml_node& triangle) {
+        faces.colors.push_back(part.model->colors.of(triangle, part.object));
+      });
+    });
     for (size_t i = first_point; i < faces.points.size(); ++i) {
       faces.points[i] = map.point(faces.points[i]);
     }
@@ -237,28 +373,19 @@ class BuiltModel {
     }
   }
 
-  pugi::xml_node model_;
-  std::map<std::string, pugi::xml_node> objects_;  // by their ids
-  std::vector<Part> parts_;                        // to be added
+  ZipArchive& archive_;
+  size_t bytes_left_;
+  std::map<std::string, std::unique_ptr<const ThreeMfModel>> models_;  // by their names
+  std::vector<Part> parts_;                                            // to be added
+  std::set<const void*> added_;                                        // meshes
   size_t part_count_ = 0;
+  size_t repeated_ = 0;
   bool is_right_ = true;
 };
 
-bool read_built_model(std::string_view model, FaceSet& faces) {
-  pugi::xml_document document;
-  return document.load_buffer(model.data(), model.size()) &&
-         BuiltModel(document.document_element()).read(faces);
-}
-
-SolidFile read_package(std::string_view bytes, const std::string& name,
-                       bool (*read)(std::string_view model, FaceSet& faces)) {
-  SolidFile file;
-  ZipArchive archive(bytes);
-  const std::optional<std::string> model = archive.unpack(model_name(archive));
-  if (model && read(*model, file.faces)) return file;
-  file.faces = {};
-  file.problem = "Could not read file '" + name + "'";
-  return file;
+SolidFile unless_damaged(bool is_right, FaceSet faces, const std::string& name) {
+  if (is_right) return {std::move(faces), {}};
+  return {{}, "Could not read file '" + name + "'"};
 }
 
 }  // namespace
@@ -279,11 +406,18 @@ SolidFile read_amf(std::string_view bytes, const std::string& name) {
 }
 
 SolidFile read_3mf(std::string_view bytes, const std::string& name) {
-  return read_package(bytes, name, read_model);
+  FaceSet faces;
+  ZipArchive archive(bytes);
+  const std::optional<std::string> model = archive.unpack(model_name(archive));
+  const bool is_right = model && read_model(*model, faces);
+  return unless_damaged(is_right, std::move(faces), name);
 }
 
 SolidFile read_built_3mf(std::string_view bytes, const std::string& name) {
-  return read_package(bytes, name, read_built_model);
+  FaceSet faces;
+  ZipArchive archive(bytes);
+  const bool is_right = BuiltModel(archive, bytes.size()).read(faces);
+  return unless_damaged(is_right, std::move(faces), name);
 }
 
 }  // namespace frontend

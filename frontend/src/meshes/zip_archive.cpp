@@ -125,9 +125,10 @@ std::optional<std::string> ZipArchive::unpack_first() const {
   return entries_.empty() ? std::nullopt : unpack(entries_.front());
 }
 
-std::optional<std::string> ZipArchive::unpack(std::string_view name) const {
+std::optional<std::string> ZipArchive::unpack(std::string_view name, size_t most_bytes) const {
   const auto entry = std::ranges::find(entries_, name, &Entry::name);
-  return entry == entries_.end() ? std::nullopt : unpack(*entry);
+  if (entry == entries_.end() || entry->size > most_bytes) return std::nullopt;
+  return unpack(*entry);
 }
 
 std::optional<std::string> ZipArchive::unpack(const Entry& entry) const {

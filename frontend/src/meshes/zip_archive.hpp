@@ -1,7 +1,9 @@
 // The files within a zip archive in memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,9 +19,11 @@ class ZipArchive {
   static bool is_one(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
   /// These return the contents of the first file, or of that name; nothing if there is none, if it
-  /// is damaged or encrypted, or if it unpacks to more than 64 times its size and 64 MiB.
+  /// is damaged or encrypted, or if it unpacks to more than 64 times its size and 64 MiB, or to
+  /// more than `most_bytes`.
   std::optional<std::string> unpack_first() const;
-  std::optional<std::string> unpack(std::string_view name) const;
+  std::optional<std::string> unpack(std::string_view name,
+                                    size_t most_bytes = std::numeric_limits<size_t>::max()) const;
 
  private:
   /// A file as the directory at the archive's end lists it.

@@ -24,7 +24,7 @@ struct Format {
   ReadFile read_by_2026;  // by 2026's
 };
 constexpr std::array<Format, 6> kFormats{{{".stl", read_stl, read_stl},
-                                          {".off", read_off, read_off},
+                                          {".off", read_off, read_colored_off},
                                           {".amf", read_amf, read_amf},
                                           {".3mf", read_3mf, read_built_3mf},
                                           {".nef3", read_nef3, read_nef3},
@@ -151,6 +151,11 @@ ImportedFile FileImports::read_import(const FileArguments& arguments) {
   }
   SolidFile solid = read(bytes->view(), path);
   if (arguments.is_centered) move_to_middle(solid.faces);
+  file.color = take_common_color(solid.faces);
+  if (!keeps_colors_) {
+    file.color.reset();
+    solid.faces.colors.clear();
+  }
   file.problem = std::move(solid.problem);
   if (!file.problem.empty()) file.todo = "the file is damaged: export it again";
   set_solid(std::move(solid.faces), path, file);

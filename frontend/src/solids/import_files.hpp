@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ namespace frontend {
 /// A file's solid, and what is wrong with it. The messages are OpenSCAD's where it has one.
 struct ImportedFile {
   const SolidOfFaces* solid = nullptr;  // null: the empty set
+  std::optional<csgcore::Color> color;  // that all of its faces have
   std::string problem;                  // empty: none
   std::string todo;
 };
@@ -34,8 +36,9 @@ constexpr const char* kImportable = ".stl, .off, .amf, .3mf, .nef3, .svg or .dxf
 class FileImports {
  public:
   /// Relative names are looked up in `folder`, in the working folder if it is empty. The pool must
-  /// outlive this.
-  FileImports(std::string folder, PolyhedronPool& pool) : folder_(std::move(folder)), pool_(pool) {}
+  /// outlive this. `keeps_colors`: those of files count.
+  FileImports(std::string folder, PolyhedronPool& pool, bool keeps_colors = true)
+      : folder_(std::move(folder)), pool_(pool), keeps_colors_(keeps_colors) {}
 
   /// The results live as long as this. The kind of an import's file is told by its name.
   const ImportedFile& import(const FileArguments& arguments);
@@ -54,6 +57,7 @@ class FileImports {
 
   const std::string folder_;
   PolyhedronPool& pool_;
+  const bool keeps_colors_;
   /// By the file and the settings.
   std::map<std::tuple<std::string, bool, bool>, ImportedFile> imports_, surfaces_;
   /// By the file and all settings: texts, and numbers.

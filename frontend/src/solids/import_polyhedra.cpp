@@ -59,30 +59,34 @@ int scale_to_unit(FaceSet& faces) {
 using Triangle = csgcore::TriangleMesh::Triangle;
 using SharedMesh = std::shared_ptr<const csgcore::TriangleMesh>;
 
-/// Returns the first one of all triangles that have the same corners.
-std::vector<Triangle> without_twins(std::span<const Triangle> triangles) {
+/// Returns the mesh with the first one of all triangles that have the same corners.
+SharedMesh without_twins(const csgcore::TriangleMesh& mesh) {
   std::set<Triangle> seen;
-  std::vector<Triangle> result;
-  for (const Triangle& triangle : triangles) {
+  std::vector<Triangle> triangles;
+  std::vector<std::optional<csgcore::Color>> colors;
+  for (size_t i = 0; i < mesh.triangles().size(); ++i) {
     csgcore::stop_point();
-    Triangle corners = triangle;
+    Triangle corners = mesh.triangles()[i];
     std::sort(corners.begin(), corners.end());
-    if (seen.insert(corners).second) result.push_back(triangle);
+    if (!seen.insert(corners).second) continue;
+    triangles.push_back(mesh.triangles()[i]);
+    if (!mesh.colors().empty()) colors.push_back(mesh.colors()[i]);
   }
-  return result;
+  return std::make_shared<const csgcore::TriangleMesh>(
+      std::vector<Vec3>(mesh.vertices().begin(), mesh.vertices().end()), std::move(triangles),
+      std::move(colors));
 }
 
 SharedMesh mesh_of(FaceSet faces) {
-  std::vector<Triangle> triangles = triangles_of(faces);
-  auto mesh =
-      std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
+  std::vector<std::optional<csgcore::Color>> colors;
+  std::vector<Triangle> triangles = triangles_of(faces, colors);
+  auto mesh = std::make_shared<const csgcore::TriangleMesh>(
+      std::move(faces.points), std::move(triangles), std::move(colors));
   if (mesh->triangles().empty()) return nullptr;
   if (mesh->is_closed()) return mesh;
   // Two sheets that run both ways at one place would leave nothing.
-  std::vector<Triangle> single = without_twins(mesh->triangles());
-  if (single.size() == mesh->triangles().size()) return mesh;
-  return std::make_shared<const csgcore::TriangleMesh>(
-      std::vector<Vec3>(mesh->vertices().begin(), mesh->vertices().end()), std::move(single));
+  SharedMesh single = without_twins(*mesh);
+  return single->triangles().size() == mesh->triangles().size() ? mesh : single;
 }
 
 SharedMesh sheet_mesh(const csgcore::TriangleMesh& closed) {
@@ -179,6 +183,12 @@ PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int expone
   }
   for (const uint32_t corner : faces.corners) hashes.add(uint64_t{corner});
   for (const uint32_t end : faces.ends) hashes.add(uint64_t{end});
+  for (const std::optional<csgcore::Color>& color : faces.colors) {
+    const csgcore::Color given = color.value_or(csgcore::Color{-1, -1, -1, -1});
+    for (const float channel : {given.r, given.g, given.b, given.a}) {
+      hashes.add(uint64_t{std::bit_cast<uint32_t>(channel)});
+    }
+  }
   return {faces.points.size(), faces.corners.size(),
           faces.ends.size(),   std::bit_cast<uint64_t>(int64_t{exponent}),
           hashes.first(),      hashes.second()};
@@ -195,7 +205,9 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
   if (faces.face_count() == 0) return solid;
   solid.is_inside_out = enclosed_volume(faces) < 0;
   if (tells_inner_faces_) find_inner_faces(faces, solid);
-  if (faces.face_count() * faces.points.size() <= kMostConvexitySteps) {
+  // Faces of half-spaces have no colours.
+  const bool is_small = faces.face_count() * faces.points.size() <= kMostConvexitySteps;
+  if (is_small && faces.colors.empty()) {
     const Mesh mesh = to_mesh(faces);
     solid.polyhedron = csgcore::Polyhedron::from(mesh);
     if (solid.polyhedron && keeps_meshes_) {

@@ -39,7 +39,9 @@ std::optional<SolidShape> solid_shape(const NodeData& data, const Node& node,
   const ImportedFile& file =
       arguments.is_surface ? sources.files.surface(arguments) : sources.files.import(arguments);
   if (!file.problem.empty()) problems.add(node, {": " + file.problem, file.todo});
-  return shape_of_faces(file.solid, arguments.file);
+  std::optional<SolidShape> shape = shape_of_faces(file.solid, arguments.file);
+  if (shape) shape->color = file.color;
+  return shape;
 }
 
 }  // namespace frontend

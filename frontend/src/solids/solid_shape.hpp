@@ -20,9 +20,10 @@ struct SolidSources {
 /// A solid in its own coordinates, without colour and id.
 struct SolidShape {
   csgcore::Primitive primitive;
-  csgcore::FacetSettings facets{};      // of what is round
-  const SolidOfFaces* faces = nullptr;  // that it is made of, where it is
-  std::string file{};                   // that the faces are from, as the design names it
+  csgcore::FacetSettings facets{};        // of what is round
+  const SolidOfFaces* faces = nullptr;    // that it is made of, where it is
+  std::string file{};                     // that the faces are from, as the design names it
+  std::optional<csgcore::Color> color{};  // that the file gives to all of it
 };
 
 /// Returns the solid of a node whose row has Role::kSolid; nothing if it is empty. Tells what is

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,63 @@ TEST_F(ImporterFiles, AreCenteredByTheRulesOf2026) {
   const csgcore::Box box = import("import(\"a.dxf\", center = true);").view_box;
   EXPECT_NEAR(box.center().x, 0, 1e-9);
   EXPECT_NEAR(box.center().y, 0, 1e-9);
+}
+
+TEST_F(ImporterFiles, AreReadByTheLanguagesRules) {
+  folder.write("a.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nv 0 0 5\nf 3 2 1\nf 2 4 1\nf 4 3 1\nf 2 3 4\n");
+  folder.write("a.svg",
+               "<svg><defs><rect id=\"r\" width=\"3\" height=\"2\"/></defs>"
+               "<use href=\"#r\"/><rect id=\"s\" x=\"9\" width=\"1\" height=\"1\"/></svg>");
+  const auto box = [&](const std::string& text) {
+    return import_text(text,
+                       {.language = language::LanguageVersion::k2026, .folder = folder.path()})
+        .view_box;
+  };
+  expect_box(box("import(\"a.obj\");"), Vec3(0, 0, 0), Vec3(3, 4, 5), 1e-12);
+  expect_box(box("linear_extrude(1) { import(\"a.svg\"); }"), Vec3(0, -2, 0), Vec3(10, 0, 1), 1e-9);
+  expect_box(box("linear_extrude(1) { import(\"a.svg\", id = \"s\"); }"), Vec3(9, -1, 0),
+             Vec3(10, 0, 1), 1e-9);
+  expect_box(box("linear_extrude(1) { import(\"a.svg\", id = \"r\"); }"), Vec3(0, -2, 0),
+             Vec3(3, 0, 1), 1e-9);
+  expect_box(import("linear_extrude(1) { import(\"a.svg\"); }").view_box, Vec3(9, -1, 0),
+             Vec3(10, 0, 1), 1e-9);
+}
+
+TEST_F(ImporterFiles, HaveColorsWhereNoColorStandsAbove) {
+  constexpr language::LanguageVersion k2026 = language::LanguageVersion::k2026;
+  const std::string corner = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n";
+  folder.write("red.off",
+               corner + "3 2 1 0 255 0 0\n3 1 3 0 255 0 0\n3 3 2 0 255 0 0\n3 2 3 1 255 0 0\n");
+  folder.write("two.off", corner + "3 2 1 0 255 0 0\n3 1 3 0\n3 3 2 0 0 255 0\n3 2 3 1\n");
+  const auto primitive = [&](const std::string& text, ImportOptions options) {
+    options.folder = folder.path();
+    return import_text(text, options).scene.primitives.at(0);
+  };
+  const csgcore::Color red{1, 0, 0, 1}, blue{0, 0, 1, 1};
+  const Primitive whole = primitive("import(\"red.off\");", {.language = k2026});
+  EXPECT_EQ(whole.color, red);
+  EXPECT_TRUE(whole.polyhedron()) << "one colour costs no mesh";
+  EXPECT_EQ(primitive("color([0, 0, 1]) { import(\"red.off\"); }", {.language = k2026}).color,
+            blue);
+  EXPECT_FALSE(primitive("import(\"red.off\");", {}).color) << "2021.01";
+  EXPECT_FALSE(
+      primitive("import(\"red.off\");", {.language = k2026, .picture = PictureKind::kRendered})
+          .color);
+  const Primitive faces = primitive("import(\"two.off\");", {.language = k2026});
+  EXPECT_FALSE(faces.color);
+  ASSERT_TRUE(faces.mesh());
+  ASSERT_EQ(faces.mesh()->colors().size(), 4u);
+  const csgcore::TriangleMesh& mesh = *faces.mesh();
+  const auto color_at = [&](const Vec3& point) {
+    const auto& [center, scale] = mesh.canonical();
+    const Vec3 local = point / std::ldexp(1.0, std::ilogb(5.0));  // meshes are of unit size
+    return mesh.color_at((local - center) / scale);
+  };
+  EXPECT_EQ(color_at({1, 1, 0}), red);
+  EXPECT_EQ(color_at({0, 1, 1}), (csgcore::Color{0, 1, 0, 1}));
+  EXPECT_EQ(color_at({1, 0, 1}), std::nullopt);
+  EXPECT_EQ(primitive("color([0, 0, 1]) { import(\"two.off\"); }", {.language = k2026}).color,
+            blue);
 }
 
 TEST_F(ImporterFiles, AreFoundInTheDesignsFolder) {

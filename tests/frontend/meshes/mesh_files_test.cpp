@@ -124,6 +124,107 @@ TEST(MeshFiles, BuiltOf3mfHasItemsAndComponentsUnderTheirTransformations) {
   EXPECT_NE(read(package_3mf(own, "<m:item objectid=\"2\"/>")).problem, "");
 }
 
+/// Writes each face's colour in 255ths, "-" where it has none.
+std::vector<std::string> colors_of(const FaceSet& faces) {
+  std::vector<std::string> texts;
+  for (const std::optional<csgcore::Color>& color : faces.colors) {
+    std::string& text = texts.emplace_back(color ? "" : "-");
+    if (!color) continue;
+    for (const float channel : {color->r, color->g, color->b, color->a}) {
+      text += (text.empty() ? "" : " ") + std::to_string(static_cast<int>(255 * channel + 0.01f));
+    }
+  }
+  return texts;
+}
+
+// What OpenSCAD 2025.07.18 makes of the same files was looked at.
+TEST(MeshFiles, Of3mfHaveColors) {
+  const std::string model =
+      "<model><resources><basematerials id=\"9\"><base displaycolor=\"#FF0000\"/>"
+      "<base displaycolor=\"#00FF0080\"/></basematerials><m:colorgroup id=\"8\">"
+      "<m:color color=\"#0000ff\"/><m:color color=\"#FFFF0040\"/><m:color "
+      "color=\"blue\"/></m:colorgroup>"
+      "<object id=\"1\" pid=\"8\" pindex=\"1\"><mesh><vertices><vertex x=\"0\"/><vertex x=\"3\"/>"
+      "<vertex y=\"4\"/><vertex z=\"5\"/></vertices><triangles>";
+  std::string triangles;
+  for (const char* const given :
+       {"", "p1=\"0\"", "pid=\"9\" p1=\"1\"", "pid=\"9\" p1=\"7\"", "pid=\"8\" p1=\"2\"",
+        "pid=\"8\" p1=\"0\" p2=\"1\" p3=\"1\"", "pid=\"8\" p1=\"0\" p2=\"1\"",
+        "pid=\"9\" p1=\"0\" p2=\"1\" p3=\"1\"", "pid=\"5\" p1=\"0\""}) {
+    triangles += "<triangle v1=\"0\" v2=\"1\" v3=\"2\" " + std::string(given) + "/>";
+  }
+  const std::string end =
+      "</triangles></mesh></object></resources><build><item objectid=\"1\"/></build></model>";
+  const std::string package =
+      zip_of(std::vector<ZippedFile>{{"3D/3dmodel.model", model + triangles + end}});
+  EXPECT_THAT(colors_of(read_built_3mf(package, "a.3mf").faces),
+              testing::ElementsAre("255 255 0 64", "255 255 0 64", "0 255 0 255", "-", "-",
+                                   "170 170 85 127", "85 85 170 191", "255 0 0 255", "-"));
+  EXPECT_THAT(read_3mf(package, "a.3mf").faces.colors, testing::IsEmpty());
+}
+
+TEST(MeshFiles, Of3mfMayHaveObjectsInOtherModels) {
+  const std::string other =
+      "<model><resources><object id=\"1\"><mesh><vertices><vertex x=\"0\"/><vertex x=\"3\"/>"
+      "<vertex y=\"4\"/><vertex z=\"5\"/></vertices><triangles><triangle v1=\"2\" v2=\"1\" "
+      "v3=\"0\"/>"
+      "</triangles></mesh></object></resources></model>";
+  const auto package = [&](const std::string& path) {
+    const std::string main = "<model><resources><object id=\"1\"><components><component p:path=\"" +
+                             path +
+                             "\" objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 "
+                             "0\"/></components></object></resources>"
+                             "<build><item objectid=\"1\"/><item p:path=\"" +
+                             path + "\" objectid=\"1\"/></build></model>";
+    return zip_of(
+        std::vector<ZippedFile>{{"3D/3dmodel.model", main}, {"3D/Objects/o.model", other}});
+  };
+  const SolidFile file = read_built_3mf(package("/3D/Objects/o.model"), "a.3mf");
+  EXPECT_EQ(file.problem, "");
+  EXPECT_EQ(file.faces.face_count(), 2u);
+  EXPECT_THAT(file.faces.points, testing::Contains(csgcore::Vec3(8, 0, 0)));
+  EXPECT_NE(read_built_3mf(package("/3D/no.model"), "a.3mf").problem, "");
+}
+
+TEST(Off, HasColorsBehindItsCorners) {
+  const std::string text =
+      "OFF\n4 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1 255 0 0\n3 0 1 3 0 0.5 1.0 0.25 # half\n"
+      "3 0 3 2 1 1 1.\n3 1 2 3 5\n3 1 2 3\n3 1 2 3 300 0 0 9 9\n3 1 2 3 -1 0 0\n3 1 2 3 # 1 2 3\n";
+  const SolidFile file = read_colored_off(text, "a.off");
+  EXPECT_EQ(file.problem, "");
+  EXPECT_THAT(colors_of(file.faces),
+              testing::ElementsAre("255 0 0 255", "0 127 255 63", "1 1 255 255", "-", "-",
+                                   "255 0 0 9", "-", "-"));
+  EXPECT_THAT(read_off(text, "a.off").faces.colors, testing::IsEmpty());
+}
+
+TEST(Off, By2026LosesCornersWithoutAPoint) {
+  const std::string text = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 2 9 1\n3 0 1 3\n";
+  const SolidFile file = read_colored_off(text, "a.off");
+  EXPECT_THAT(file.problem, testing::HasSubstr("ignored bad face vertex index: '9'"));
+  EXPECT_THAT(file.faces.corners, testing::ElementsAre(0, 2, 1, 0, 1, 3));
+  EXPECT_EQ(read_off(text, "a.off").faces.face_count(), 0u) << "2021.01";
+}
+
+TEST(FaceSets, KeepTheColorsOfTheirFaces) {
+  FaceSet faces = read_colored_off(
+                      "OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 1 0\n2 0 1 255 0 0\n"
+                      "4 0 1 2 3 0 255 0\n3 0 2 4 0 0 255\n",
+                      "a.off")
+                      .faces;
+  EXPECT_EQ(tidy(faces), 0u);
+  EXPECT_THAT(colors_of(faces), testing::ElementsAre("0 255 0 255", "0 0 255 255"));
+  std::vector<std::optional<csgcore::Color>> colors;
+  EXPECT_EQ(triangles_of(faces, colors).size(), 3u);
+  ASSERT_EQ(colors.size(), 3u);
+  EXPECT_EQ(colors[1], faces.colors[0]);
+  EXPECT_EQ(colors[2], faces.colors[1]);
+  EXPECT_FALSE(take_common_color(faces));
+  faces.colors[0] = faces.colors[1];
+  EXPECT_EQ(take_common_color(faces)->b, 1);
+  EXPECT_THAT(faces.colors, testing::IsEmpty());
+}
+
 TEST(MeshFiles, AnotherFormatIsNone) {
   EXPECT_EQ(read_stl("garbage", "a.stl").problem, "'a.stl' is no STL: nothing is read");
   EXPECT_EQ(read_off("garbage", "a.off").problem, "The file 'a.off' is not in OFF");
