@@ -58,7 +58,7 @@ std::string said_by_openscad(const std::vector<std::string>& arguments) {
   std::vector<std::string> command = {openscad_program()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   start_openscad({.command = command, .output = said.descriptor(), .errors = said.descriptor()},
-                 "openscad is asked for its version and options")
+                 "designs are compared with OpenSCAD's")
       .wait();
   if (lseek(said.descriptor(), 0, SEEK_SET) != 0) return {};
   return std::string(read_descriptor(said.descriptor(), "a file in memory").view());
@@ -69,7 +69,12 @@ std::vector<std::string> known_to_openscad(
     const std::function<void(const std::string& line)>& warn) {
   const auto is_long = [](const std::string& word) { return word.starts_with("--"); };
   if (std::none_of(options.begin(), options.end(), is_long)) return options;
-  std::string help = said_by_openscad({"--help"});
+  std::string help;
+  try {
+    help = said_by_openscad({"--help"});
+  } catch (const Error&) {
+    return options;  // as will be said where it is started
+  }
   std::replace(help.begin(), help.end(), '\n', ' ');
   if (help.find("--help ") == std::string::npos) return options;  // it does not tell
   std::vector<std::string> known;

@@ -19,7 +19,7 @@ ChildProcess start_openscad(const ChildSetup& setup, const std::string& need,
                             const std::string& otherwise = {});
 
 /// Runs openscad, and returns what it says on its standard output and its standard error. Throws
-/// what start_openscad() does.
+/// what start_openscad() does, for `scadray check`.
 std::string said_by_openscad(const std::vector<std::string>& arguments);
 
 /// Returns those of the options that the installed openscad knows, by its --help: 2021.01 has fewer

@@ -136,7 +136,8 @@ TEST_F(Handover, ItsExitCodeIsOpenScadsAndNothingIsHalfWritten) {
 
 TEST_F(Handover, WithoutOpenScadItSaysWhatToInstall) {
   const Environment none("SCADRAY_OPENSCAD", "/nonexistent/openscad");
-  const Said said = run({"-o", folder_ / "x.stl", "-o", folder_ / "x.nef3", scad_});
+  const Said said =
+      run({"--hardwarnings", "-o", folder_ / "x.stl", "-o", folder_ / "x.nef3", scad_});
   EXPECT_EQ(said.code, 1);
   EXPECT_EQ(said.err,
             "error: a .nef3 file is written by OpenSCAD, and /nonexistent/openscad was not found "
