@@ -16,7 +16,7 @@ namespace {
 
 using csgcore::TriangleSet;
 using csgcore::Vec3;
-using Corners = std::array<uint32_t, 3>;
+using TriangleCorners = std::array<uint32_t, 3>;
 
 void round_to_float(std::vector<Vec3>& vertices, const std::string& name) {
   for (Vec3& vertex : vertices) {
@@ -55,19 +55,19 @@ class MergedVertices {
   std::vector<uint32_t> parent_;
 };
 
-bool has_equal_corners(const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+bool has_equal_corners(const TriangleCorners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 /// Removes pairs of triangles with the same corners that run in opposite directions.
-void remove_backed_triangles(std::vector<Corners>& triangles) {
+void remove_backed_triangles(std::vector<TriangleCorners>& triangles) {
   struct Sorted {
-    Corners corners;  // ascending
+    TriangleCorners corners;  // ascending
     bool is_odd;      // whether the triangle runs the other way around
     uint32_t index;
   };
   std::vector<Sorted> all;
   all.reserve(triangles.size());
-  for (const Corners& t : triangles) {
-    Corners corners = t;
+  for (const TriangleCorners& t : triangles) {
+    TriangleCorners corners = t;
     std::sort(corners.begin(), corners.end());
     const bool is_odd = !(t == corners || (t[1] == corners[0] && t[2] == corners[1]) ||
                           (t[2] == corners[0] && t[0] == corners[1]));
@@ -91,14 +91,14 @@ void remove_backed_triangles(std::vector<Corners>& triangles) {
     }
   }
   size_t next = 0;
-  std::erase_if(triangles, [&](const Corners&) { return goes[next++]; });
+  std::erase_if(triangles, [&](const TriangleCorners&) { return goes[next++]; });
 }
 
 /// Removes vertices that no triangle has.
 void remove_unused_vertices(TriangleSet& surface) {
   constexpr uint32_t kUnused = 0xFFFFFFFFu;
   std::vector<uint32_t> place(surface.vertices.size(), kUnused);
-  for (const Corners& t : surface.triangles) {
+  for (const TriangleCorners& t : surface.triangles) {
     for (const uint32_t corner : t) place[corner] = 0;
   }
   uint32_t count = 0;
@@ -108,7 +108,7 @@ void remove_unused_vertices(TriangleSet& surface) {
     place[i] = count++;
   }
   surface.vertices.resize(count);
-  for (Corners& t : surface.triangles) {
+  for (TriangleCorners& t : surface.triangles) {
     for (uint32_t& corner : t) corner = place[corner];
   }
 }
@@ -121,7 +121,7 @@ TriangleSet written_mesh(const TriangleSet& surface, Precision precision, const 
   const std::vector<Vec3>& places = result.vertices;
   MergedVertices merged(places.size());
   bool collapses = false;
-  for (const Corners& t : result.triangles) {
+  for (const TriangleCorners& t : result.triangles) {
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t a = t[i], b = t[(i + 1) % 3];
       if (places[a] != places[b]) continue;
@@ -130,7 +130,7 @@ TriangleSet written_mesh(const TriangleSet& surface, Precision precision, const 
     }
   }
   if (collapses) {
-    for (Corners& t : result.triangles) {
+    for (TriangleCorners& t : result.triangles) {
       for (uint32_t& corner : t) corner = merged.first_of(corner);
     }
     std::erase_if(result.triangles, has_equal_corners);
