@@ -110,6 +110,40 @@ TEST(Evaluation, TellsWhereLinesComeFrom) {
   EXPECT_FALSE(evaluated("use <quiet.scad>\n").evaluation.has_unparsed_files);
 }
 
+TEST(Evaluation, TellsWhatAMessageIsOfWithoutGroupAndPlace) {
+  const Folder folder;
+  std::string told;
+  const std::string path = folder.write("design.scad", "x = y;\ninclude <none.scad>\necho(1);");
+  evaluate(path, {}, [&](const SaidLine& line) {
+    const bool has_place = line.place.file != kNoFile;
+    told += std::to_string(static_cast<int>(line.group)) + std::string(line.what) +
+            (has_place ? "@" + std::to_string(line.place.offset) : "") + "\n";
+  });
+  EXPECT_EQ(told,
+            "1Can't open include file 'none.scad'.@7\n1Ignoring unknown variable 'y'@4\n51\n");
+}
+
+TEST(Evaluation, TellsTheValuesOfTheTopLevel) {
+  const Folder folder;
+  EvaluationOptions options;
+  options.wants_values = true;
+  const auto values_of = [&](const std::string& text) {
+    std::string all;
+    const auto said = evaluate(folder.write("design.scad", text), options, [](const SaidLine&) {});
+    for (const auto& [name, value] : said.values) all += name + "=" + value + " ";
+    return all;
+  };
+  EXPECT_EQ(values_of("a = 1 + 1; b = [a, [\"c\"]]; $d = a; module m() { e = 1; } m(); f = g;"),
+            "$d=2 a=2 b=[2, [\"c\"]] f=undef ");
+  EXPECT_EQ(
+      values_of("a = [for (i = [0 : 99]) i]; b = [[for (i = [0 : 99]) i]]; f = function () 1;"),
+      "a=vector of 100 elements b=vector of 1 elements f=function ");
+  EXPECT_EQ(values_of("a = 1; assert(false);"), "a=1 ");
+  EXPECT_EQ(values_of("a = 1; b = "), "");
+  options.wants_values = false;
+  EXPECT_EQ(values_of("a = 1;"), "");
+}
+
 TEST(Evaluation, ReadsTheCamera) {
   const Evaluated result = evaluated("$vpt = [1, 2, 3];\n$vpr = [1, 2, 3, 4];\n$vpd = 70;\n");
   const DesignCamera& camera = result.evaluation.camera;

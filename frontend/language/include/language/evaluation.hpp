@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -13,10 +14,12 @@
 
 #include "language/evaluation_cache.hpp"
 #include "language/language_version.hpp"
+#include "language/message_group.hpp"
 #include "language/node_tree.hpp"
 #include "language/parameter_value.hpp"
 #include "language/source_files.hpp"
 #include "language/text_meter.hpp"
+#include "language/text_overlay.hpp"
 
 namespace language {
 
@@ -57,6 +60,8 @@ struct EvaluationOptions {
   std::stop_token stop;
   EvaluationCache* cache = nullptr;       // null: nothing is kept
   std::shared_ptr<TextMeter> text_meter;  // null: textmetrics() and fontmetrics() find no font
+  const TextOverlay* overlay = nullptr;   // texts of included and used files; null: they are read
+  bool wants_values = false;              // Evaluation::values
 };
 
 enum class Outcome : uint8_t {
@@ -85,13 +90,18 @@ struct Evaluation {
   std::vector<std::string> lookups;  // absolute paths that were tried and did not exist, once each
   DesignCamera camera;
   bool has_unparsed_files = false;  // a used file has a syntax error, which ends nothing
+  /// The values of the variables of the main file's top level, as echo() shows them, or in words
+  /// where they are large: "vector of 1000 elements".
+  std::map<std::string, std::string, std::less<>> values;
 };
 
 /// A line that OpenSCAD would print, without the line feed.
 struct SaidLine {
   std::string_view text;
-  Place place{};             // that the text names, kNoFile: none
+  Place place{};             // of its cause, which the text need not name; kNoFile: none is known
   const SourceFiles& files;  // what the place refers to
+  MessageGroup group = MessageGroup::kPlain;
+  std::string_view what{};  // the text without its group and place
   operator std::string_view() const { return text; }
 };
 

@@ -95,6 +95,7 @@ class Session {
   void preset_names(Machine& machine) const;
   void apply_parameters(Machine& machine);
   void read_camera(const Machine& machine);
+  void read_values(const Machine& machine);
   template <typename Converted>
   void read_camera_value(const Machine& machine, std::string_view name, std::string_view type,
                          Converted (*convert)(const Value&, bool&), Converted& target);
@@ -120,7 +121,7 @@ void Session::take(const Message& message) {
       message.group == MessageGroup::kError || message.group == MessageGroup::kTrace;
   if (machine_ && !ends_run && said_bytes_ > kMostMessageBytes)
     throw TooLarge("The design's messages take too much memory: more than 64 MiB");
-  sink_({message.line, message.place, program_->files});
+  sink_({message.line, message.place, program_->files, message.group, message.text});
   if (!machine_) return;
   if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
 }
@@ -203,6 +204,33 @@ void Session::read_camera(const Machine& machine) {
     messages_.say(MessageGroup::kWarning, "Viewall and autocenter disabled in favor of $vp*");
 }
 
+// Returns whether a value's text is short: it has few elements, those of its elements among them.
+bool is_short(const Value& value, int& elements) {
+  constexpr size_t kMostBytes = 200;
+  if (--elements < 0) return false;
+  if (value.is_string()) return value.text().size() <= kMostBytes;
+  if (!value.is_vector()) return !value.is_object() && !value.is_function();
+  return std::ranges::all_of(value.elements(),
+                             [&](const Value& v) { return is_short(v, elements); });
+}
+
+std::string shown_value(const Value& value) {
+  int elements = 50;
+  if (is_short(value, elements)) return echo_text(value);
+  std::string text(type_name(value.type()));
+  if (value.is_vector()) text += " of " + std::to_string(value.elements().size()) + " elements";
+  if (value.is_string()) text += " of " + std::to_string(value.text().size()) + " bytes";
+  return text;
+}
+
+void Session::read_values(const Machine& machine) {
+  for (const Assignment& assignment : program_->units[0].scope->assignments) {
+    const std::string_view name = program_->names.text(assignment.name);
+    const Value value = machine.top_level_value(name);
+    if (value.is_set()) result_.values.emplace(name, shown_value(value));
+  }
+}
+
 void Session::apply_parameters(Machine& machine) {
   const std::optional<ParameterSet> set =
       options_.parameters
@@ -267,6 +295,7 @@ void Session::evaluate_program() {
   try {
     run_program(machine);
     read_camera(machine);
+    if (options_.wants_values) read_values(machine);
   } catch (const std::bad_alloc&) {  // outside of calls: for constants, or the text of a value
     messages_.say(MessageGroup::kError, "The design's values take too much memory");
     abort();
@@ -291,6 +320,7 @@ void Session::parse_and_evaluate() {
   options.hard_warnings = options_.hard_warnings;
   options.stop = options_.stop;
   options.text = text_;
+  options.overlay = options_.overlay;
   const ParseOutcome parsed = parse_program(*program_, messages_, path_, options);
   if (parsed == ParseOutcome::kParsed) {
     result_.has_unparsed_files = std::any_of(program_->units.begin(), program_->units.end(),

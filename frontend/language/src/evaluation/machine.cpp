@@ -46,6 +46,12 @@ void Machine::preset(std::string_view name, Value value) {
 
 Value Machine::top_level_value(std::string_view text) const {
   const Name name = compiler_.names().find(text);
+  if (name == kNoName) return Value::unset();
+  if (!compiler_.names().is_dynamic(name)) {
+    const ScopeVariable* const variable = compiler_.unit(0).scope->find(name);
+    HeapScope* const scope = tops_.main_scope();
+    return variable && scope ? scope->values()[variable->slot] : Value::unset();
+  }
   const DynamicNames& dynamic = stack_.dynamic;
   return dynamic.is_bound_since(name, preset_trail_) ? dynamic[name] : Value::unset();
 }

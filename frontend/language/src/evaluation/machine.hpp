@@ -41,7 +41,7 @@ class Machine {
   /// Evaluates the assignments of the main file's top level. Throws Aborted, after the error and
   /// its traces, or Stopped.
   void run_assignments();
-  /// Returns the value that the top level has assigned to a `$` name: unset if it has not.
+  /// Returns the value that the main file's top level has assigned to a name: unset if it has not.
   Value top_level_value(std::string_view name) const;
   /// Evaluates the module calls of the main file. Throws like run_assignments().
   void run_calls();

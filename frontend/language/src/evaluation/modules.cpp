@@ -179,8 +179,9 @@ uint32_t Children::count() const {
 }
 
 void Children::say_child_is_deprecated() {
-  stack_.messages().say(MessageGroup::kDeprecated,
-                        "child() will be removed in future releases. Use children() instead.");
+  stack_.messages().say_without_place(
+      MessageGroup::kDeprecated,
+      "child() will be removed in future releases. Use children() instead.", stack_.place());
 }
 
 // Children run where they are written: in the scope and among the children of their call.

@@ -10,24 +10,15 @@
 #include <unordered_set>
 #include <vector>
 
+#include "language/message_group.hpp"
 #include "language/source_files.hpp"
 
 namespace language {
 
-enum class MessageGroup : uint8_t {
-  kError,
-  kWarning,
-  kSoftWarning,  // looks like a warning, but --hardwarnings does not stop there
-  kDeprecated,
-  kTrace,
-  kEcho,
-  kPlain
-};
-
 struct Message {
   MessageGroup group;
   std::string text;  // without group and place
-  Place place;       // kNoFile: none is shown
+  Place place;       // of its cause; kNoFile: none is known
   std::string line;  // as OpenSCAD prints it: "WARNING: … in file x.scad, line 3"
 };
 
@@ -51,6 +42,10 @@ class Messages {
   void say(MessageGroup group, std::string text, Place place, PathBase base);
   void warn(std::string text, Place place = {}, PathBase base = PathBase::kMainFile) {
     say(MessageGroup::kWarning, std::move(text), place, base);
+  }
+  /// Says something of a place that the line does not name.
+  void say_without_place(MessageGroup group, std::string text, Place place) {
+    say(group, std::move(text), place, std::string());
   }
 
   /// Says an error of the parser, whose lines are counted differently, and whose path is relative

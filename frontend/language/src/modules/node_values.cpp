@@ -60,7 +60,8 @@ void warn(const BuiltinCall& call, std::string text) {
 }
 
 void deprecate(const BuiltinCall& call, std::string text) {
-  call.environment.messages.say(MessageGroup::kDeprecated, std::move(text));
+  call.environment.messages.say_without_place(MessageGroup::kDeprecated, std::move(text),
+                                              call.place);
 }
 
 Fragments fragments_of(const BuiltinCall& call) {

@@ -25,7 +25,9 @@ const KeptStatement* KeptFile::find(uint32_t offset) {
 
 KeptSources::KeptSources() : files_(1) { add_first_names(names); }
 
-void KeptSources::begin(const std::string& main_path, const std::vector<std::string>& definitions) {
+void KeptSources::begin(const std::string& main_path, const std::vector<std::string>& definitions,
+                        const TextOverlay* overlay) {
+  overlay_ = overlay;
   const bool is_same = main_path == main_path_ && definitions == definitions_;
   main_path_ = main_path;
   definitions_ = definitions;
@@ -41,10 +43,11 @@ std::shared_ptr<KeptFile> KeptSources::open(
       numbers_.try_emplace({role, path}, static_cast<FileId>(files_.size()));
   if (is_new) files_.emplace_back();
   Entry& entry = files_[known->second];
-  const FileSignature signature(path);
+  const TextOverlay::Text unsaved = overlay_ ? overlay_->find(path) : nullptr;
+  const FileSignature signature = unsaved ? FileSignature() : FileSignature(path);
   const bool is_same = entry.file && signature.has_bytes_of(entry.signature);
   if (!is_same) {
-    auto bytes = read_regular_file(path);
+    auto bytes = unsaved ? std::optional(*unsaved) : read_regular_file(path);
     if (!bytes) return nullptr;
     std::string text = text_of(std::move(*bytes));
     if (!entry.file || entry.file->source()->text != text) {
@@ -62,6 +65,7 @@ void KeptSources::end() {
     entry.file->is_complete = entry.file->is_read;
     if (!entry.is_open || !entry.file->is_read) entry.file = nullptr;
   }
+  overlay_ = nullptr;
 }
 
 }  // namespace language

@@ -15,6 +15,7 @@
 #include "base/name_table.hpp"
 #include "language/file_signature.hpp"
 #include "language/source_files.hpp"
+#include "language/text_overlay.hpp"
 #include "syntax/arena.hpp"
 #include "syntax/arena_list.hpp"
 #include "syntax/syntax.hpp"
@@ -78,7 +79,9 @@ class KeptSources {
 
   /// To be called before the first file of an evaluation is opened. Forgets all files if the main
   /// file is another one, or is parsed with other definitions, as they bear on how others are read.
-  void begin(const std::string& main_path, const std::vector<std::string>& definitions);
+  /// `overlay` may be null.
+  void begin(const std::string& main_path, const std::vector<std::string>& definitions,
+             const TextOverlay* overlay = nullptr);
   /// Returns a file as it is now; null if it cannot be read, or is not regular. `text_of` makes the
   /// text of its bytes.
   std::shared_ptr<KeptFile> open(Role role, const std::string& path,
@@ -95,6 +98,7 @@ class KeptSources {
     bool is_open = false;
   };
 
+  const TextOverlay* overlay_ = nullptr;  // of this evaluation
   std::string main_path_;
   std::vector<std::string> definitions_;
   std::map<std::pair<Role, std::string>, FileId> numbers_;

@@ -12,6 +12,7 @@
 #include "base/dialect.hpp"
 #include "base/name_table.hpp"
 #include "language/source_files.hpp"
+#include "language/text_overlay.hpp"
 #include "syntax/arena.hpp"
 #include "syntax/kept_sources.hpp"
 #include "syntax/syntax.hpp"
@@ -33,6 +34,7 @@ struct ParseOptions {
   bool hard_warnings = false;
   std::stop_token stop;
   std::optional<std::string_view> text;  // of the main file; nothing: it is read
+  const TextOverlay* overlay = nullptr;  // texts of other files; null: they are read
 };
 
 struct Program {

@@ -38,7 +38,8 @@ bool is_font(const std::string& name) {
 
 }  // namespace
 
-LibrarySearch::LibrarySearch(std::vector<std::string>& lookups) : lookups_(lookups) {
+LibrarySearch::LibrarySearch(std::vector<std::string>& lookups, const TextOverlay* overlay)
+    : lookups_(lookups), overlay_(overlay) {
   if (const char* parts = std::getenv("OPENSCADPATH")) {
     for (std::string_view rest = parts;; rest.remove_prefix(rest.find(':') + 1)) {
       library_folders_.push_back(absolute(std::string(rest.substr(0, rest.find(':')))));
@@ -58,7 +59,7 @@ std::string LibrarySearch::find(std::string_view name, const std::string& folder
   const fs::path first = fs::path(folder) / name;  // `name` alone if it is absolute
   if (is_file(first)) {
     std::error_code error;
-    std::string found = fs::canonical(first, error).string();
+    std::string found = (overlay_ ? resolved(first) : fs::canonical(first, error)).string();
     if (!error && !std::ranges::count(excluded, found)) return found;
   }
   if (name.starts_with('/')) return "";
@@ -72,6 +73,7 @@ std::string LibrarySearch::find(std::string_view name, const std::string& folder
 }
 
 bool LibrarySearch::is_file(const fs::path& path) {
+  if (overlay_ && overlay_->find(path)) return true;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status))
@@ -80,7 +82,10 @@ bool LibrarySearch::is_file(const fs::path& path) {
 }
 
 ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOptions& options)
-    : program_(program), messages_(messages), options_(options), search_(program.lookups) {}
+    : program_(program),
+      messages_(messages),
+      options_(options),
+      search_(program.lookups, options.overlay) {}
 
 bool ProgramReader::read_main(const std::string& path) {
   std::error_code error;
@@ -100,7 +105,7 @@ bool ProgramReader::read_main(const std::string& path) {
     program_.files.add(absolute.string(), unit_text(std::move(*text)));
     add_unit(0, absolute.lexically_normal().parent_path().string());
   }
-  program_.kept->begin(program_.files[0].path, options_.definitions);
+  program_.kept->begin(program_.files[0].path, options_.definitions, options_.overlay);
   set_main_unit(0);
   return true;
 }
@@ -157,8 +162,9 @@ void ProgramReader::cannot_open(std::string_view words, const FileReference& fil
                                 const std::string& path) {
   const std::string text = filled(words, {file.name});
   if (path.empty() || is_regular_file(path)) {
-    const bool has_place = program_.dialect.tells_place_of_missing_files;
-    return messages_.warn(text + ".", has_place ? file.place : Place{});
+    if (program_.dialect.tells_place_of_missing_files)
+      return messages_.warn(text + ".", file.place);
+    return messages_.say_without_place(MessageGroup::kWarning, text + ".", file.place);
   }
   messages_.warn(text + ": it is no regular file", file.place);
 }

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "language/text_overlay.hpp"
 #include "messages/messages.hpp"
 #include "syntax/lexer.hpp"
 #include "syntax/program.hpp"
@@ -20,7 +21,8 @@ namespace language {
 class LibrarySearch {
  public:
   /// Reads the environment. Absolute paths that were tried and do not exist are added to `lookups`.
-  explicit LibrarySearch(std::vector<std::string>& lookups);
+  /// Files of the overlay, which may be null, exist.
+  explicit LibrarySearch(std::vector<std::string>& lookups, const TextOverlay* overlay = nullptr);
 
   /// Returns the absolute path of a file that is named in a file of `folder` (absolute). Links and
   /// dots are followed, except, as in OpenSCAD, where a library folder has it: then its path is
@@ -28,11 +30,14 @@ class LibrarySearch {
   /// `excluded`.
   std::string find(std::string_view name, const std::string& folder,
                    std::span<const std::string> excluded = {});
+  /// Those of OPENSCADPATH, the user and the system, in the order in which they are searched.
+  const std::vector<std::string>& library_folders() const { return library_folders_; }
 
  private:
   bool is_file(const std::filesystem::path& path);
 
   std::vector<std::string>& lookups_;
+  const TextOverlay* overlay_;
   std::vector<std::string> library_folders_;  // absolute
 };
 
