@@ -21,9 +21,9 @@ using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgco
 /// Whether pictures by these settings are drawn by scadray-gl; empty: none are.
 using GlProgramChoice = std::function<bool(const RenderSettings&)>;
 
-/// Runs the command. If the first argument is `bench` or `validate`, the program scadray-bench or
-/// scadray-validate runs in place of this one; for a window scadray-window, and scadray-gl where it
-/// draws. Messages go to stderr; nothing is thrown.
+/// Runs the command. If the first argument is `bench`, `serve` or `validate`, the program
+/// scadray-bench and so on runs in place of this one; for a window scadray-window, and scadray-gl
+/// where it draws. Messages go to stderr; nothing is thrown.
 ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer,
                      const GlProgramChoice& drawn_by_gl_program = {});
 

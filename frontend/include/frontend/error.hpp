@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -13,12 +14,23 @@ struct Location {
   uint32_t column = 0;
 };
 
+/// What a message says. Texts may be empty.
+struct Problem {
+  std::string file;  // as messages show it
+  Location location;
+  std::string what, todo;
+  // What messages do not show:
+  std::string path{};   // absolute, of the file; empty where `file` alone tells it
+  uint32_t column = 0;  // in characters
+};
+
 /// A warning is collected and shown on stderr, not thrown.
 struct Warning {
   std::string text;        // like an Error's what(), with "warning" in place of "error"
   std::string error_text;  // what() of the Error that it becomes where warnings are errors
   /// OpenSCAD says nothing of it: it never becomes an error.
   bool is_note = false;
+  Problem problem{};
 };
 
 /// what() is "file:line:column: error: what (what to do)", without those places that are not known.
@@ -26,7 +38,13 @@ class Error : public std::runtime_error {
  public:
   Error(const std::string& file, Location location, const std::string& what,
         const std::string& todo);
-  explicit Error(const Warning& warning) : std::runtime_error(warning.error_text) {}
+  explicit Error(const Warning& warning);
+  explicit Error(Problem problem);
+
+  const Problem& problem() const { return *problem_; }
+
+ private:
+  std::shared_ptr<const Problem> problem_;  // shared, since copies of an exception must not throw
 };
 
 /// Any of `file`, `location` and `todo` may be empty, and is then left out of the text.

@@ -1,12 +1,14 @@
 #include "frontend/error.hpp"
 
+#include <utility>
+
 namespace frontend {
 namespace {
 
-/// Writes "file:line:column: severity: what (todo)", without the parts that are empty or 0.
-std::string message(const std::string& file, Location location, const char* severity,
-                    const std::string& what, const std::string& todo) {
-  std::string text = file;
+/// Returns "file:line:column: severity: what (todo)", without the parts that are empty or 0.
+std::string message(const Problem& problem, const char* severity) {
+  const Location location = problem.location;
+  std::string text = problem.file;
   if (location.line > 0) {
     if (!text.empty()) text += ':';
     text += std::to_string(location.line);
@@ -14,8 +16,8 @@ std::string message(const std::string& file, Location location, const char* seve
   }
   if (!text.empty()) text += ": ";
   text += severity;
-  text += ": " + what;
-  if (!todo.empty()) text += " (" + todo + ')';
+  text += ": " + problem.what;
+  if (!problem.todo.empty()) text += " (" + problem.todo + ')';
   return text;
 }
 
@@ -23,17 +25,26 @@ std::string message(const std::string& file, Location location, const char* seve
 
 Error::Error(const std::string& file, Location location, const std::string& what,
              const std::string& todo)
-    : std::runtime_error(message(file, location, "error", what, todo)) {}
+    : Error(Problem{file, location, what, todo}) {}
+
+Error::Error(const Warning& warning)
+    : std::runtime_error(warning.error_text),
+      problem_(std::make_shared<const Problem>(warning.problem)) {}
+
+Error::Error(Problem problem)
+    : std::runtime_error(message(problem, "error")),
+      problem_(std::make_shared<const Problem>(std::move(problem))) {}
 
 Warning make_warning(const std::string& file, Location location, const std::string& what,
                      const std::string& todo) {
-  return {message(file, location, "warning", what, todo),
-          message(file, location, "error", what, todo)};
+  const Problem problem{file, location, what, todo};
+  return {message(problem, "warning"), message(problem, "error"), false, problem};
 }
 
 Warning make_note(const std::string& file, Location location, const std::string& what,
                   const std::string& todo) {
-  return {message(file, location, "note", what, todo), {}, true};
+  const Problem problem{file, location, what, todo};
+  return {message(problem, "note"), {}, true, problem};
 }
 
 }  // namespace frontend

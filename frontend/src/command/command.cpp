@@ -11,6 +11,7 @@
 #include "command/check.hpp"
 #include "command/export_option.hpp"
 #include "command/handover.hpp"
+#include "command/message_writer.hpp"
 #include "command/models.hpp"
 #include "command/outputs.hpp"
 #include "command/texts.hpp"
@@ -58,16 +59,23 @@ std::string renderer_line(const RenderStats& stats) {
 class Run {
  public:
   /// `text` is what text_in_memory() has given of the design, if it was asked.
-  Run(const Options& options, const std::optional<FileText>& text, const Renderer& renderer)
+  Run(const Options& options, const std::optional<FileText>& text, const Renderer& renderer,
+      MessageWriter& messages)
       : options_(options),
         text_(text),
         renderer_(renderer),
-        progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+        messages_(messages),
+        progress_(!options.quiet && !messages.is_json() && isatty(STDERR_FILENO) == 1) {
+    messages_.set_progress(&progress_);
+  }
+  ~Run() { messages_.set_progress(nullptr); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
 
   void execute() {
     if (wants_workers()) workers_.emplace();
     check_outputs();
-    for (const std::string& warning : options_.warnings) say("warning: " + warning);
+    for (const std::string& warning : options_.warnings) say("warning", warning);
     std::vector<PendingOutput> outputs;
     for (frame_ = options_.first_frame; frame_ < options_.end_frame; ++frame_) {
       start_ = Clock::now();
@@ -130,11 +138,9 @@ class Run {
     progress_.update((text + stage).c_str(), fraction);
   }
 
-  /// Writes a line to stderr, unless -q is given.
-  void say(const std::string& text) {
-    if (options_.quiet) return;
-    progress_.clear();
-    print_text(stderr, text + "\n");
+  /// Says something on stderr, unless -q is given.
+  void say(const std::string& group, const std::string& text) {
+    if (!options_.quiet) messages_.say(group, text);
   }
 
   DesignFile read() {
@@ -148,14 +154,7 @@ class Run {
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame_);
     reading.wants_files = !options_.rule_path.empty();
-    reading.message = [this](const std::string& line) {
-      if (options_.prints_echoes && is_echo(line)) {
-        print_text(stdout, line + "\n");
-      } else if (!options_.quiet || line.starts_with("ERROR")) {
-        progress_.clear();
-        print_text(stderr, line + "\n");
-      }
-    };
+    reading.message = message_sink(options_, messages_);
     reading.progress = [this](const char* stage) { show_progress(stage, -1); };
     return read_design(options_.input, reading);
   }
@@ -187,7 +186,7 @@ class Run {
     stats_.layers = design.scene.layers.size();
     for (const Warning& warning : design.warnings) {
       if (options_.has_hard_warnings && !warning.is_note) throw Error(warning);
-      say(warning.text);
+      if (!options_.quiet) messages_.say(warning);
     }
     return design;
   }
@@ -223,11 +222,12 @@ class Run {
     } else {
       image = render(scene, view, settings, stats_.render);
       if (settings.technique == Technique::kTiles && stats_.render.technique == "cells") {
-        say("warning: more primitives lie behind each other than OpenGL can take by tiles: it has "
-            "drawn cells");
+        say("warning",
+            "more primitives lie behind each other than OpenGL can take by tiles: it has drawn "
+            "cells");
       }
     }
-    if (options_.info) say(renderer_line(stats_.render));
+    if (options_.info) say("", renderer_line(stats_.render));
     return image;
   }
 
@@ -253,6 +253,7 @@ class Run {
   const Options& options_;
   const std::optional<FileText>& text_;
   const Renderer& renderer_;
+  MessageWriter& messages_;
   Clock::time_point start_ = Clock::now();  // start of the frame
   uint32_t frame_ = 0;
   ImportedDesign design_;
@@ -283,9 +284,12 @@ void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind
   }
 }
 
+/// The advice for a run that is out of memory.
+constexpr const char* kSmaller = "a smaller --imgsize or design";
+
 /// Writes all outputs of a design. What is read more than once is read into memory first: it may be
 /// a pipe.
-ExitCode draw(const Options& options, const Renderer& renderer) {
+ExitCode draw(const Options& options, const Renderer& renderer, MessageWriter& messages) {
   std::optional<FileText> text;
   if (options.first_frame == options.end_frame) return ExitCode::kDone;
   const bool has_summary = options.summary.any() || !options.summary_path.empty();
@@ -294,18 +298,20 @@ ExitCode draw(const Options& options, const Renderer& renderer) {
     text = text_in_memory(options.input);
   }
   if (const ExitCode code = write_handed(options, text); code != ExitCode::kDone) return code;
-  if (const ExitCode code = write_texts(options, text); code != ExitCode::kDone) return code;
-  if (is_model_made) write_models(options, text);
-  if (!options.outputs.empty()) Run(options, text, renderer).execute();
+  if (const ExitCode code = write_texts(options, text, messages); code != ExitCode::kDone) {
+    return code;
+  }
+  if (is_model_made) write_models(options, text, messages);
+  if (!options.outputs.empty()) Run(options, text, renderer, messages).execute();
   return ExitCode::kDone;
 }
 
 ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer,
-             const GlProgramChoice& drawn_by_gl_program) {
+             const GlProgramChoice& drawn_by_gl_program, MessageWriter& messages) {
   if (!arguments.empty() && arguments[0] == "check") {
     return check_designs({arguments.begin() + 1, arguments.end()});
   }
-  if (!arguments.empty() && arguments[0] == "bench") {
+  if (!arguments.empty() && (arguments[0] == "bench" || arguments[0] == "serve")) {
     run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
                    "install scadray as a whole: its programs belong into one folder");
   }
@@ -337,7 +343,7 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
       if (!options.outputs.empty() && drawn_by_gl_program && drawn_by_gl_program(options.render)) {
         run_gl_program(arguments, options.render.renderer);
       }
-      return draw(options, renderer);
+      return draw(options, renderer, messages);
   }
   return ExitCode::kDone;
 }
@@ -346,8 +352,21 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
 
 ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer,
                      const GlProgramChoice& drawn_by_gl_program) {
-  const auto program = [&] { return run(arguments, renderer, drawn_by_gl_program); };
-  return run_program(program, "a smaller --imgsize or design");
+  const auto program = [&] {
+    MessageWriter messages(message_format(arguments));
+    try {
+      return run(arguments, renderer, drawn_by_gl_program, messages);
+    } catch (const Error& error) {
+      messages.say(error);
+    } catch (const std::bad_alloc&) {
+      if (!messages.is_json()) throw;
+      messages.say(Error({}, {}, "out of memory", std::string("try ") + kSmaller));
+    } catch (const std::exception& error) {
+      messages.say(Error({}, {}, error.what(), {}));
+    }
+    return ExitCode::kFailure;
+  };
+  return run_program(program, kSmaller);
 }
 
 }  // namespace frontend

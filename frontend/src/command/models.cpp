@@ -22,13 +22,23 @@ namespace {
 
 class ModelRun {
  public:
-  ModelRun(const Options& options, const std::optional<FileText>& text)
-      : options_(options), text_(text), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+  ModelRun(const Options& options, const std::optional<FileText>& text, MessageWriter& messages)
+      : options_(options),
+        text_(text),
+        messages_(messages),
+        progress_(!options.quiet && !messages.is_json() && isatty(STDERR_FILENO) == 1) {
+    messages_.set_progress(&progress_);
+  }
+  ~ModelRun() { messages_.set_progress(nullptr); }
+  ModelRun(const ModelRun&) = delete;
+  ModelRun& operator=(const ModelRun&) = delete;
 
   void execute() {
     check_all_outputs(options_);
     if (options_.outputs.empty()) {  // a picture's run says them, too
-      for (const std::string& warning : options_.warnings) say("warning: " + warning);
+      for (const std::string& warning : options_.warnings) {
+        if (!is_silent()) messages_.say("warning", warning);
+      }
     }
     for (uint32_t frame = options_.first_frame; frame < options_.end_frame; ++frame) {
       export_frame(frame);
@@ -51,17 +61,10 @@ class ModelRun {
   /// Whether a summary is all that is asked for: then the run of the pictures has the messages.
   bool is_silent() const { return options_.quiet || options_.models.empty(); }
 
-  /// Writes a line to stderr, unless -q is given.
-  void say(const std::string& text) {
-    if (is_silent()) return;
-    progress_.clear();
-    print_text(stderr, text + "\n");
-  }
-
   void warn(const std::vector<Warning>& warnings) {
     for (const Warning& warning : warnings) {
       if (options_.has_hard_warnings && !warning.is_note) throw Error(warning);
-      say(warning.text);
+      if (!is_silent()) messages_.say(warning);
     }
   }
 
@@ -75,14 +78,8 @@ class ModelRun {
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame);
     reading.wants_files = !options_.rule_path.empty();
-    reading.message = [this](const std::string& line) {
-      if (options_.models.empty()) return;
-      if (options_.prints_echoes && is_echo(line)) {
-        print_text(stdout, line + "\n");
-      } else if (!options_.quiet || line.starts_with("ERROR")) {
-        progress_.clear();
-        print_text(stderr, line + "\n");
-      }
+    reading.message = [this, sink = message_sink(options_, messages_)](const DesignMessage& line) {
+      if (!options_.models.empty()) sink(line);
     };
     reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
     return read_design(options_.input, reading);
@@ -125,6 +122,7 @@ class ModelRun {
 
   const Options& options_;
   const std::optional<FileText>& text_;
+  MessageWriter& messages_;
   ProgressLine progress_;
   std::vector<std::string> files_;  // that the design was read from, for all frames
   std::vector<PendingOutput> outputs_;
@@ -133,8 +131,9 @@ class ModelRun {
 
 }  // namespace
 
-void write_models(const Options& options, const std::optional<FileText>& text) {
-  ModelRun(options, text).execute();
+void write_models(const Options& options, const std::optional<FileText>& text,
+                  MessageWriter& messages) {
+  ModelRun(options, text, messages).execute();
 }
 
 }  // namespace frontend

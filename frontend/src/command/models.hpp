@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "command/message_writer.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/options.hpp"
 
@@ -12,6 +13,7 @@ namespace frontend {
 /// pictures. The design is evaluated for them by itself, as for OpenSCAD's final render. `text` is
 /// what text_in_memory() has given of the design. Throws Error, in OpenSCAD's words where the
 /// design has nothing that a format holds.
-void write_models(const Options& options, const std::optional<FileText>& text);
+void write_models(const Options& options, const std::optional<FileText>& text,
+                  MessageWriter& messages);
 
 }  // namespace frontend

@@ -151,6 +151,10 @@ constexpr OptionRow kOwnOptions[] = {
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"echo", Takes::kNothing, "",
      "write what the design echoes to standard output; the window does after each save"},
+    {"messages", Takes::kText, "HOW",
+     "text, the default, or json: each message an object on a line, with group, text, file, line, "
+     "column and trace",
+     kOneOf<kMessageFormats>},
     kTimeoutOption,
     kSkipOption,
     kThreadsOption,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "command/message_writer.hpp"
 #include "command/option_row.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/design_file_options.hpp"
@@ -72,6 +73,8 @@ constexpr Word<RendererKind> kRenderers[] = {
     {"auto", RendererKind::kAuto}, {"gl", RendererKind::kGl}, {"cpu", RendererKind::kCpu}};
 constexpr Word<Technique> kTechniques[] = {{"cells", Technique::kCells},
                                            {"tiles", Technique::kTiles}};
+constexpr Word<MessageFormat> kMessageFormats[] = {{"text", MessageFormat::kText},
+                                                   {"json", MessageFormat::kJson}};
 /// Whether panning moves the view as far as OpenSCAD's.
 constexpr Word<bool> kPans[] = {{"mouse", false}, {"openscad", true}};
 /// OpenSCAD's, which reads them itself.

@@ -367,7 +367,7 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   }
   if (options.action == Action::kOpenWindow) {
     constexpr const char* kForPictures[] = {
-        "d", "animate", "animate_sharding", "export-format", "summary", "summary-file"};
+        "d", "animate", "animate_sharding", "export-format", "summary", "summary-file", "messages"};
     if (const std::string list = given(kForPictures); !list.empty()) {
       options.warnings.push_back("without effect in a window, which needs no -o: " + list);
     }
@@ -472,6 +472,7 @@ Options parse_options(const std::vector<std::string>& words) {
   options.resets_window = arguments.has("reset-window-settings");
   options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
   options.import.language = read_language(arguments);
+  choice(arguments, "messages", kMessageFormats, MessageFormat::kText);  // MessageWriter reads it
   options.has_hard_warnings = arguments.has("hardwarnings");
   warn_of_what_is_ignored(arguments, options);
   return options;
@@ -484,10 +485,12 @@ std::string help_text() {
       "       scadray bench [options] FILE...    (scadray bench --help)\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
       "       scadray check [options] FILE...    (scadray check --help)\n"
+      "       scadray serve [options]            (scadray serve --help)\n"
       "Ray traces a design: FILE is a .scad, a .csg that OpenSCAD exported, a mesh or a\n"
       "drawing that import() reads (.stl, .off, .amf, .3mf, .nef3, .svg, .dxf), or - for a\n"
       ".scad or .csg from standard input. `bench` measures how long that takes, `validate`\n"
-      "compares it with exact arithmetic, `check` compares evaluations with openscad's",
+      "compares it with exact arithmetic, `check` compares evaluations with openscad's,\n"
+      "`serve` is a language server for editors",
       kHelpColumns);
   all.add(openscad_table()).add(own_table());
   std::ostringstream text;

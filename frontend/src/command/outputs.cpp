@@ -6,6 +6,8 @@
 
 #include "follow/make_rule.hpp"
 #include "frontend/design_file.hpp"
+#include "frontend/design_version.hpp"
+#include "frontend/terminal.hpp"
 
 namespace frontend {
 namespace {
@@ -30,6 +32,16 @@ std::string exporting_line(const std::string& format, const Options& options) {
     return {};
   }
   return "Exporting " + (options.input == "-" ? "<stdin>" : options.input) + "...\n";
+}
+
+DesignMessageSink message_sink(const Options& options, MessageWriter& messages) {
+  return [&](const DesignMessage& message) {
+    if (options.prints_echoes && is_echo(message.text)) {
+      print_text(stdout, message.text + "\n");
+    } else if (!options.quiet || message.text.starts_with("ERROR")) {
+      messages.say(message);
+    }
+  };
 }
 
 std::optional<double> frame_time(const Options& options, uint32_t frame) {

@@ -7,11 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "command/message_writer.hpp"
 #include "frontend/files.hpp"
 #include "frontend/options.hpp"
 #include "frontend/text_kind.hpp"
 
 namespace frontend {
+
+/// Returns where the messages of a picture's or a model's design go: to `messages`, or as the
+/// options ask, to standard output or nowhere.
+DesignMessageSink message_sink(const Options& options, MessageWriter& messages);
 
 /// Returns the kind's word of --export-format.
 const char* word_of(TextKind kind);

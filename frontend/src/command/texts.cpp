@@ -11,7 +11,6 @@
 #include "command/outputs.hpp"
 #include "follow/evaluated_design.hpp"
 #include "frontend/files.hpp"
-#include "frontend/terminal.hpp"
 #include "language/csg_writer.hpp"
 #include "language/customizer.hpp"
 #include "language/evaluation.hpp"
@@ -22,8 +21,9 @@ namespace {
 /// The evaluations for one output, and where their messages go.
 class TextRun {
  public:
-  TextRun(const Options& options, const TextOutput& output, const std::optional<FileText>& text)
-      : options_(options), output_(output), text_(text) {}
+  TextRun(const Options& options, const TextOutput& output, const std::optional<FileText>& text,
+          MessageWriter& messages)
+      : options_(options), output_(output), text_(text), messages_(messages) {}
 
   ExitCode run() {
     std::optional<language::EvaluationOptions> known =
@@ -44,7 +44,7 @@ class TextRun {
     for (uint32_t frame = options_.first_frame; is_read && frame < options_.end_frame; ++frame) {
       is_read = evaluate(*known, frame);
     }
-    if (output_.kind == TextKind::kEcho) outputs_.push_back({output_.path, bytes_of(messages_)});
+    if (output_.kind == TextKind::kEcho) outputs_.push_back({output_.path, bytes_of(echo_)});
     if (is_read && writes_rule()) {
       outputs_.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
     }
@@ -59,18 +59,19 @@ class TextRun {
   }
 
   /// The messages of a tree go to stderr.
-  void add(std::string_view line) {
+  void add(const std::string& line, const SourcePlace& place) {
     if (options_.quiet && !line.starts_with("ERROR")) return;
-    messages_.append(line) += '\n';
-    if (output_.kind == TextKind::kEcho) return;
-    print_text(stderr, messages_);
-    messages_.clear();
+    if (output_.kind == TextKind::kEcho) {
+      echo_ += line + '\n';
+    } else if (!line.empty() || !messages_.is_json()) {
+      messages_.say(DesignMessage{line, place});
+    }
   }
 
   std::string parameters_of(const language::Evaluation& evaluation) const {
     const language::SourceFiles& files = *evaluation.files;
-    const auto parameters =
-        language::customizer_parameters(files[files.order().front()].text, options_.import.language);
+    const auto parameters = language::customizer_parameters(files[files.order().front()].text,
+                                                            options_.import.language);
     return language::parameters_text(
         parameters.value_or(std::vector<language::CustomizerParameter>{}),
         std::filesystem::path(options_.input).stem().string());
@@ -80,13 +81,16 @@ class TextRun {
   bool evaluate(language::EvaluationOptions options, uint32_t frame) {
     options.time = frame_time(options_, frame).value_or(0);
     if (const std::string line = exporting_line(word_of(output_.kind), options_); !line.empty()) {
-      add(line.substr(0, line.size() - 1));
+      add(line.substr(0, line.size() - 1), {});
     }
+    PlacesOfLines places;
     const language::Evaluation evaluation = language::evaluate(
-        options_.input, options, [&](std::string_view line) { add(line); }, view_of(text_));
+        options_.input, options,
+        [&](const language::SaidLine& line) { add(std::string(line.text), places.of(line)); },
+        view_of(text_));
     const std::string advice =
         advice_of_language(options_.input, options, evaluation.outcome, view_of(text_));
-    if (!advice.empty() && !options_.quiet) print_text(stderr, advice + "\n");
+    if (!advice.empty() && !options_.quiet) messages_.say("", advice);
     if (evaluation.outcome == language::Outcome::kNotParsed ||
         evaluation.outcome == language::Outcome::kUnreadable) {
       return false;
@@ -109,18 +113,20 @@ class TextRun {
   const Options& options_;
   const TextOutput& output_;
   const std::optional<FileText>& text_;
-  std::string messages_;            // which are the output, or a line that is being said
+  MessageWriter& messages_;
+  std::string echo_;                // the messages, if they are the output
   std::vector<std::string> files_;  // that the design was read from, for all frames
   std::vector<PendingOutput> outputs_;
 };
 
 }  // namespace
 
-ExitCode write_texts(const Options& options, const std::optional<FileText>& text) {
+ExitCode write_texts(const Options& options, const std::optional<FileText>& text,
+                     MessageWriter& messages) {
   if (options.texts.empty()) return ExitCode::kDone;
   check_all_outputs(options);
   for (const TextOutput& output : options.texts) {
-    const ExitCode code = TextRun(options, output, text).run();
+    const ExitCode code = TextRun(options, output, text, messages).run();
     if (code != ExitCode::kDone) return code;
   }
   return ExitCode::kDone;

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <filesystem>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include "base/lower_case.hpp"
@@ -58,23 +57,15 @@ bool read_word(std::string_view word, language::EvaluationOptions& options) {
   return true;
 }
 
-/// Finds the places of lines. There may be many lines, and looking for the path of their file takes
-/// longer than all else.
-class PlacesOfLines {
- public:
-  SourcePlace of(const language::SaidLine& line) {
-    if (line.place.file == language::kNoFile) return {};
-    const language::SourceFile& file = line.files[line.place.file];
-    const auto [path, is_new] = paths_.try_emplace(line.place.file);
-    if (is_new) path->second = file.canonical_path();
-    return source_place(path->second, line.files.line(line.place), file.text, line.place.offset);
-  }
-
- private:
-  std::unordered_map<language::FileId, std::string> paths_;
-};
-
 }  // namespace
+
+SourcePlace PlacesOfLines::of(const language::SaidLine& line) {
+  if (line.place.file == language::kNoFile) return {};
+  const language::SourceFile& file = line.files[line.place.file];
+  const auto [path, is_new] = paths_.try_emplace(line.place.file);
+  if (is_new) path->second = file.canonical_path();
+  return source_place(path->second, line.files.line(line.place), file.text, line.place.offset);
+}
 
 DesignKind kind_of(const std::string& path) {
   if (has_suffix(path, ".scad")) return DesignKind::kScad;

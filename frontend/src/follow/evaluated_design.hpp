@@ -6,10 +6,12 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "frontend/camera.hpp"
 #include "frontend/design_file_options.hpp"
+#include "frontend/source_place.hpp"
 #include "language/evaluation.hpp"
 
 namespace frontend {
@@ -27,6 +29,15 @@ DesignKind kind_of(const std::string& path);
 
 /// Returns the .scad that shows a mesh or a drawing of that name.
 std::string import_of(const std::string& name);
+/// Finds the places of lines. There may be many lines, and looking for the path of their file takes
+/// longer than all else.
+class PlacesOfLines {
+ public:
+  SourcePlace of(const language::SaidLine& line);
+
+ private:
+  std::unordered_map<language::FileId, std::string> paths_;
+};
 
 /// Returns OpenSCAD's command-line arguments as options of the own evaluator; nothing if one of
 /// them is for openscad alone: -m, unless the file is a mesh or a drawing, which misses no files.

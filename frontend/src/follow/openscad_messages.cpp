@@ -76,7 +76,8 @@ Error openscad_error(const std::string& scad_path, const OpenScadMessages::Kept&
   Location location;
   const char* digits = text.data() + line_at + kLine.size();
   std::from_chars(digits, text.data() + text.size(), location.line);
-  return Error(file, location, text.substr(0, file_at), "");
+  return Error(Problem{file, location, text.substr(0, file_at), "", message.place.path,
+                       message.place.column});
 }
 
 }  // namespace frontend
