@@ -12,6 +12,7 @@
 #include "bench/options.hpp"
 #include "command/option_row.hpp"
 #include "program.hpp"
+#include "serve/options.hpp"
 #include "validate/options.hpp"
 
 namespace packaging {
@@ -20,11 +21,12 @@ namespace {
 Program program_of(const std::string& name) {
   if (name == "scadray") {
     return {"scadray",
-            "bench validate",
+            "bench serve validate",
             {{"OpenSCAD's options", frontend::openscad_options()},
              {"scadray's own options", frontend::own_options()}}};
   }
   if (name == "scadray-bench") return {"scadray-bench", "", {{"Options", bench::option_rows()}}};
+  if (name == "scadray-serve") return {"scadray-serve", "", {{"Options", serve::option_rows()}}};
   if (name == "scadray-validate") {
     return {"scadray-validate", "", {{"Options", validation::option_rows()}}};
   }
