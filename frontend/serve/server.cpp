@@ -198,6 +198,7 @@ void Server::save(const Json& params) {
 void Server::close(const Json& params) {
   const std::string key = key_of(params);
   workspace_.close(key);
+  told_.erase(uris_[key]);
   uris_.erase(key);
   sources_.invalidate(true);
   publish();

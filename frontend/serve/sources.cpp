@@ -43,8 +43,7 @@ SourcePointer Sources::of_document(const std::string& key) {
   if (!document) return nullptr;
   Entry& entry = entries_[key];
   if (!entry.source || entry.source->outline.text != document->text) {
-    entry.source = make_source(key, document->path, document->text);
-    entry.is_checked = false;
+    entry = {make_source(key, document->path, document->text), {}, false};
   }
   return entry.source;
 }

@@ -15,6 +15,7 @@ using language::TextOverlay;
 
 /// The most that is kept of what an evaluation says: a loop may say a million things.
 constexpr std::size_t kMostSaid = 1000;
+constexpr std::size_t kMostBytes = 4000;  // of each
 
 /// Returns a file's text without what the evaluator has appended.
 std::string own_text(std::string_view text) {
@@ -33,7 +34,7 @@ class SaidCollector {
     using language::MessageGroup;
     if (line.group == MessageGroup::kPlain || line.group == MessageGroup::kEcho) return;
     if (said_.size() == kMostSaid) return;
-    Said said{line.group, std::string(line.what)};
+    Said said{line.group, std::string(line.what.substr(0, kMostBytes))};
     if (line.place.file != language::kNoFile) {
       const auto& [path, text] = file_of(line);
       said.path = path;
@@ -222,6 +223,9 @@ void Workspace::run(const std::stop_token& stop) {
     try {
       evaluated = evaluate(*document, *overlay, version_, running_stop);
     } catch (const language::Stopped&) {
+    } catch (const std::exception& error) {  // there is no memory
+      evaluated.emplace().text = document->text;
+      evaluated->said.push_back({language::MessageGroup::kError, error.what()});
     }
     lock.lock();
     const std::string key = document->key;

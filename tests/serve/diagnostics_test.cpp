@@ -146,6 +146,25 @@ TEST_F(Diagnostics, ASavedFileIsReadAgain) {
   EXPECT_THAT(client_.said(path("a.scad")), IsEmpty());
 }
 
+TEST_F(Diagnostics, LongAndManyOnesAreCut) {
+  client_.open(path("a.scad"),
+               "s = [for (i = [0 : 99999]) i];\nfor (i = [0 : 9999]) cube([i, str(i) + 1]);\n"
+               "assert(false, s);\n");
+  client_.settle();
+  const Json list = client_.diagnostics[uri_of_path(path("a.scad"))];
+  EXPECT_LE(list.size(), 1000u);
+  for (const Json& one : list) EXPECT_LE(one["message"].get<std::string>().size(), 4000u);
+}
+
+TEST_F(Diagnostics, ASaveHasTheDocumentEvaluatedAgain) {
+  client_.open(path("a.scad"), "include <lib.scad>\ncube(width);\n");
+  EXPECT_THAT(client_.said(path("a.scad")).size(), 2u);
+  folder_.write("lib.scad", "width = 1;\n");
+  client_.notify("textDocument/didSave",
+                 {{"textDocument", {{"uri", uri_of_path(path("a.scad"))}}}});
+  EXPECT_THAT(client_.said(path("a.scad")), IsEmpty());
+}
+
 TEST_F(Diagnostics, ADocumentNeedsNoFile) {
   const std::string uri = "untitled:Untitled-1";
   client_.notify("textDocument/didOpen",

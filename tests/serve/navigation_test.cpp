@@ -127,6 +127,15 @@ TEST_F(Navigation, DefinitionsStandInOtherFiles) {
   EXPECT_THAT(definition("include <no|ne.scad>"), IsEmpty());
 }
 
+TEST_F(Navigation, AClosedFileIsReadAsItWasSaved) {
+  folder_.write("lib.scad", "\nmodule saved() {}\n");
+  EXPECT_THAT(definition("use <lib.scad>\nsa|ved();"), ElementsAre("lib.scad 1:7-1:12"));
+  client_.open(folder_ / "lib.scad", "module saved() {}\n");
+  EXPECT_THAT(definition("use <lib.scad>\nsa|ved();"), ElementsAre("lib.scad 0:7-0:12"));
+  client_.close(folder_ / "lib.scad");
+  EXPECT_THAT(definition("use <lib.scad>\nsa|ved();"), ElementsAre("lib.scad 1:7-1:12"));
+}
+
 TEST_F(Navigation, AnIncludedFileKnowsWhatStandsAroundIt) {
   client_.open(folder_ / "main.scad", "width = 3;\ninclude <a.scad>\n");
   EXPECT_THAT(definition("cube(wid|th);"), ElementsAre("main.scad 0:0-0:5"));
