@@ -128,12 +128,15 @@ TEST_F(Navigation, DefinitionsStandInOtherFiles) {
 }
 
 TEST_F(Navigation, AClosedFileIsReadAsItWasSaved) {
-  folder_.write("lib.scad", "\nmodule saved() {}\n");
-  EXPECT_THAT(definition("use <lib.scad>\nsa|ved();"), ElementsAre("lib.scad 1:7-1:12"));
-  client_.open(folder_ / "lib.scad", "module saved() {}\n");
-  EXPECT_THAT(definition("use <lib.scad>\nsa|ved();"), ElementsAre("lib.scad 0:7-0:12"));
-  client_.close(folder_ / "lib.scad");
-  EXPECT_THAT(definition("use <lib.scad>\nsa|ved();"), ElementsAre("lib.scad 1:7-1:12"));
+  // A file that has not changed for long, so that it is not read without need.
+  const std::string file = std::filesystem::canonical(SCADRAY_EXAMPLES_DIR) / "bolt.scad";
+  const std::string marked = "use <" + file + ">\nth|read();";
+  const auto saved = definition(marked);
+  EXPECT_EQ(saved.size(), 1u);
+  client_.open(file, "module thread() {}\n");
+  EXPECT_THAT(definition(marked), ElementsAre("bolt.scad 0:7-0:13"));
+  client_.close(file);
+  EXPECT_EQ(definition(marked), saved);
 }
 
 TEST_F(Navigation, AnIncludedFileKnowsWhatStandsAroundIt) {
