@@ -173,8 +173,8 @@ class SvgReader {
   }
 
   void add_chords() {
-    constexpr size_t kMostChords = 1 << 22;  // of all curves; as points they have 64 MB
-    constexpr size_t kLeastChords = 64;      // of one
+    constexpr size_t kMostChords = 1 << 20;  // of all curves; to unite so many takes some seconds
+    constexpr size_t kLeastChords = 40;      // of one: 2021.01's of a circle
     size_t count = 1;
     for_each_path([&](const CurvePath& path) { count += path.curves(); });
     most_chords_ = static_cast<int>(std::max(kMostChords / count, kLeastChords));

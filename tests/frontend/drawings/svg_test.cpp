@@ -379,7 +379,7 @@ TEST(Svg2026, HasChordsByItsSettings) {
   EXPECT_TRUE(has_box(svg(circle), {-19.9605, -20}, {19.9605, 20}, settings));
   settings.facets = {.fn = 1e9};
   EXPECT_THAT(chords_of(read_one(svg(circle + circle), settings).figures.front()).front(),
-              SizeIs(testing::Lt(size_t{1} << 22)));
+              SizeIs(testing::Lt(size_t{1} << 20)));
 }
 
 TEST(DisjointFigures, AreOneOutlineWhereTheyDoNotMeet) {
