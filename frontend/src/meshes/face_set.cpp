@@ -232,6 +232,49 @@ uint64_t tidy(FaceSet& faces) {
   return not_finite;
 }
 
+void weld(FaceSet& faces, double cell) {
+  using Edge = std::array<uint32_t, 2>;
+  std::vector<std::pair<Edge, int>> edges;  // from the lower point on: 1, and −1 for the other way
+  for (size_t i = 0; i < faces.face_count(); ++i) {
+    const std::span<const uint32_t> face = faces.face(i);
+    for (size_t k = 0; k < face.size(); ++k) {
+      const uint32_t from = face[k], to = face[(k + 1) % face.size()];
+      edges.push_back({{std::min(from, to), std::max(from, to)}, from < to ? 1 : -1});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::map<std::array<double, 3>, uint32_t> points;  // of open edges, by their cells
+  std::map<uint32_t, uint32_t> joined;               // by point: another one in its place
+  const auto join = [&](uint32_t point) {
+    if (joined.contains(point)) return;
+    std::array<double, 3> at{};
+    for (int axis = 0; axis < 3; ++axis) {
+      at[static_cast<size_t>(axis)] = std::trunc(faces.points[point][axis] / cell);
+    }
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const auto found = points.find(
+          {at[0] + neighbour % 3 - 1, at[1] + neighbour / 3 % 3 - 1, at[2] + neighbour / 9 - 1});
+      if (found == points.end()) continue;
+      joined[point] = found->second;
+      return;
+    }
+    points[at] = joined[point] = point;
+  };
+  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    csgcore::stop_point();
+    int sum = 0;
+    for (; end < edges.size() && edges[end].first == edges[begin].first; ++end) {
+      sum += edges[end].second;
+    }
+    if (sum == 0) continue;
+    for (const uint32_t point : edges[begin].first) join(point);
+  }
+  for (uint32_t& corner : faces.corners) {
+    const auto other = joined.find(corner);
+    if (other != joined.end()) corner = other->second;
+  }
+}
+
 std::optional<csgcore::Color> take_common_color(FaceSet& faces) {
   const auto& colors = faces.colors;
   if (colors.empty()) return std::nullopt;

@@ -158,7 +158,7 @@ ImportedFile FileImports::read_import(const FileArguments& arguments) {
   }
   file.problem = std::move(solid.problem);
   if (!file.problem.empty()) file.todo = "the file is damaged: export it again";
-  set_solid(std::move(solid.faces), path, file);
+  set_solid(std::move(solid.faces), path, arguments.is_of_2026, file);
   return file;
 }
 
@@ -174,13 +174,14 @@ ImportedFile FileImports::read_surface(const FileArguments& arguments) {
   HeightMap map = read_height_map(bytes->view(), path, arguments.is_inverted);
   file.problem = std::move(map.problem);
   if (!file.problem.empty()) file.todo = "check the file";
-  set_solid(solid_below(map, arguments.is_centered), path, file);
+  set_solid(solid_below(map, arguments.is_centered), path, false, file);
   return file;
 }
 
-void FileImports::set_solid(FaceSet faces, const std::string& path, ImportedFile& file) {
+void FileImports::set_solid(FaceSet faces, const std::string& path, bool closes_gaps,
+                            ImportedFile& file) {
   uint64_t unfinite_faces = 0;
-  const SolidOfFaces& solid = pool_.solid(std::move(faces), unfinite_faces);
+  const SolidOfFaces& solid = pool_.solid(std::move(faces), unfinite_faces, closes_gaps);
   const bool is_too_large = solid.exponent > kLargestExponent;
   if (!solid.is_empty() && !is_too_large) file.solid = &solid;
   if (is_too_large && file.problem.empty()) {

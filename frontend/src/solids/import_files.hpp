@@ -53,7 +53,7 @@ class FileImports {
   ImportedFile read_import(const FileArguments& arguments);
   ImportedFile read_surface(const FileArguments& arguments);
   ImportedDrawing read_drawing(const DrawingArguments& arguments);
-  void set_solid(FaceSet faces, const std::string& path, ImportedFile& file);
+  void set_solid(FaceSet faces, const std::string& path, bool closes_gaps, ImportedFile& file);
 
   const std::string folder_;
   PolyhedronPool& pool_;

@@ -176,8 +176,10 @@ Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_wo
   return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, size));
 }
 
-PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int exponent) {
+PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int exponent,
+                                                bool closes_gaps) {
   Hashes hashes;
+  hashes.add(uint64_t{closes_gaps});
   for (const Vec3& point : faces.points) {
     for (int axis = 0; axis < 3; ++axis) hashes.add(std::bit_cast<uint64_t>(point[axis]));
   }
@@ -194,11 +196,12 @@ PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int expone
           hashes.first(),      hashes.second()};
 }
 
-const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_faces) {
+const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_faces,
+                                          bool closes_gaps) {
   // Scaled first: what underflows there must be equal afterwards.
   const int exponent = scale_to_unit(faces);
   unfinite_faces += tidy(faces);
-  const auto [entry, is_new] = solids_.try_emplace(key_of(faces, exponent));
+  const auto [entry, is_new] = solids_.try_emplace(key_of(faces, exponent, closes_gaps));
   SolidOfFaces& solid = entry->second;
   if (!is_new) return solid;
   solid.exponent = exponent;
@@ -214,7 +217,14 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
       meshes_of_[solid.polyhedron.get()] = facet_mesh({mesh});
     }
   }
-  if (!solid.polyhedron) solid.mesh = mesh_of(std::move(faces));
+  if (!solid.polyhedron) solid.mesh = mesh_of(closes_gaps ? faces : std::move(faces));
+  if (closes_gaps && solid.mesh && !solid.mesh->is_closed()) {
+    constexpr double kCell = 0x1p-20;  // to which OpenSCAD cuts operands
+    weld(faces, std::ldexp(kCell, -exponent));
+    tidy(faces);
+    SharedMesh closed = mesh_of(std::move(faces));
+    if (closed && closed->is_closed()) solid.mesh = std::move(closed);
+  }
   if (solid.mesh && solid.mesh->is_closed()) solid.sheet = sheet_mesh(*solid.mesh);
   return solid;
 }

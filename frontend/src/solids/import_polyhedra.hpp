@@ -61,8 +61,9 @@ class PolyhedronPool {
   csgcore::Primitive box(const csgcore::Box& box, const csgcore::Affine& local_to_world);
 
   /// The result lives as long as the pool. `unfinite_faces` is increased by the faces that are left
-  /// out, since they have coordinates that are no finite numbers.
-  const SolidOfFaces& solid(FaceSet faces, uint64_t& unfinite_faces);
+  /// out, since they have coordinates that are no finite numbers. `closes_gaps`: one that is not
+  /// closed is, if points are joined that are nearer than some two cells of OpenSCAD's grid.
+  const SolidOfFaces& solid(FaceSet faces, uint64_t& unfinite_faces, bool closes_gaps = false);
 
   /// A valid primitive of a kind that has facets becomes OpenSCAD's polyhedron with that many
   /// fragments (≥ 3), or its mesh. False: it stays as it is, since there would be too many facets.
@@ -77,7 +78,7 @@ class PolyhedronPool {
   /// What tells faces from others: their counts, their power of two and two hashes of 64 bits, so
   /// that large ones need not be kept.
   using FacesKey = std::array<uint64_t, 6>;
-  static FacesKey key_of(const FaceSet& faces, int exponent);
+  static FacesKey key_of(const FaceSet& faces, int exponent, bool closes_gaps);
 
   const SolidOfFaces& faceted(const Faceting& faceting, int fragments);
 

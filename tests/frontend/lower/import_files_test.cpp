@@ -87,6 +87,29 @@ TEST_F(ImporterFiles, AreReadByTheLanguagesRules) {
              Vec3(10, 0, 1), 1e-9);
 }
 
+TEST_F(ImporterFiles, Of2026CloseGapsOfTheGrid) {
+  const auto facet = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+           "\nendloop\nendfacet\n";
+  };
+  const auto write = [&](const std::string& top) {
+    folder.write("a.stl", "solid\n" + facet("0 0 0", "0 1 0", "1 0 0") +
+                              facet("0 0 0", "1 0 0", "0 0 1") + facet("0 0 0", "0 0 1", "0 1 0") +
+                              facet("1 0 0", "0 1 0", top) + "endsolid\n");
+  };
+  const auto warnings_in = [&](language::LanguageVersion language) {
+    return import_text("import(\"a.stl\");", {.language = language, .folder = folder.path()})
+        .warnings;
+  };
+  for (const char* const near : {"0 0 1.0000001", "9e-7 0 1", "0 -9e-7 1.0000015"}) {
+    write(near);
+    EXPECT_THAT(warnings_in(language::LanguageVersion::k2026), IsEmpty()) << near;
+    EXPECT_THAT(warnings_in(language::LanguageVersion::k2021), SizeIs(1)) << near;
+  }
+  write("0 0 1.000004");
+  EXPECT_THAT(warnings_in(language::LanguageVersion::k2026), SizeIs(1));
+}
+
 TEST_F(ImporterFiles, HaveColorsWhereNoColorStandsAbove) {
   constexpr language::LanguageVersion k2026 = language::LanguageVersion::k2026;
   const std::string corner = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n";
