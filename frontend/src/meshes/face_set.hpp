@@ -36,8 +36,8 @@ struct FaceSet {
 /// were not finite.
 uint64_t tidy(FaceSet& faces);
 
-/// Makes points one that are at ends of open edges, which faces do not pass as often in one direction
-/// as in the other, and lie in the same cell of a grid, or in neighbouring ones.
+/// Makes points one that are at ends of open edges, which faces do not pass as often in one
+/// direction as in the other, and lie in the same cell of a grid, or in neighbouring ones.
 void weld(FaceSet& faces, double cell);
 
 /// Takes the colours away if they are all the same, and returns that one.
