@@ -65,7 +65,7 @@ Vec3 nearest_on_line(const Vec3& origin, const Vec3& direction, const csgcore::R
 }
 
 Vec3 nearest_on_circle(const View& view, const Surface& circle, const PicturePoint& click) {
-  constexpr int kSteps = 64;
+  constexpr int kStepsOfCircle = 64;
   constexpr double kGolden = 0.6180339887498949;
   // In radians: far below a pixel, and above what the distance's own rounding can tell apart.
   constexpr double kAngleAccuracy = 1e-9;
@@ -73,9 +73,9 @@ Vec3 nearest_on_circle(const View& view, const Surface& circle, const PicturePoi
     return circle.origin + circle.radius * direction_across(circle.direction, angle);
   };
   const auto distance = [&](double angle) { return distance_px(view, point_at(angle), click); };
-  const double step = 2 * M_PI / kSteps;
+  const double step = 2 * M_PI / kStepsOfCircle;
   int best = 0;
-  for (int i = 1; i < kSteps; ++i) {
+  for (int i = 1; i < kStepsOfCircle; ++i) {
     if (distance(i * step) < distance(best * step)) best = i;
   }
   double low = (best - 1) * step, high = (best + 1) * step;

@@ -35,7 +35,8 @@ std::size_t place_suffix(std::string_view text) {
   return is_number ? file : text.size();
 }
 
-std::string absolute_path(const std::string& path) {
+/// Returns the absolute path of a file that is there; else the name as it is.
+std::string path_if_there(const std::string& path) {
   std::error_code failed;
   if (path.empty() || !std::filesystem::exists(path, failed)) return path;
   return std::filesystem::absolute(path, failed).lexically_normal().string();
@@ -65,7 +66,7 @@ nlohmann::ordered_json json_of(const Problem& problem, std::string_view group) {
   nlohmann::ordered_json json;
   json["group"] = group;
   json["text"] = problem.what + (problem.todo.empty() ? "" : " (" + problem.todo + ')');
-  put_place(json, problem.path.empty() ? absolute_path(problem.file) : problem.path,
+  put_place(json, problem.path.empty() ? path_if_there(problem.file) : problem.path,
             problem.location.line, problem.column > 0 ? problem.column : problem.location.column);
   return json;
 }

@@ -18,7 +18,7 @@ const FcChar8* fc_string(const std::string& text) {
   return reinterpret_cast<const FcChar8*>(text.c_str());
 }
 
-std::string trimmed(std::string_view text) {
+std::string trimmed_name(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r\n\v\f";
   const size_t first = text.find_first_not_of(kSpace);
   if (first == std::string_view::npos) return {};
@@ -151,7 +151,7 @@ void FontStock::load_list() {
 const FoundFont& FontStock::find(std::string_view pattern) {
   auto found = found_.find(pattern);
   if (found == found_.end()) {
-    found = found_.emplace(std::string(pattern), match(trimmed(pattern))).first;
+    found = found_.emplace(std::string(pattern), match(trimmed_name(pattern))).first;
   }
   return found->second;
 }
