@@ -39,8 +39,8 @@ ConvexCell::ConvexCell(const Box& box) {
 /// A face has a point of the plane on two of its edges, or on none: whether a vertex is left is
 /// decided once, by the same arithmetic for all of its edges.
 void ConvexCell::clip(const Vec3& normal, double limit) {
-  constexpr uint32_t kMostFaces = 6 + Contractor::kMostTests;
-  std::array<std::optional<Vec3>, kMostFaces> cut;  // by face: the point of its first cut edge
+  constexpr uint32_t kMostCellFaces = 6 + Contractor::kMostTests;
+  std::array<std::optional<Vec3>, kMostCellFaces> cut;  // by face: the point of its first cut edge
   const size_t count = edges_.size();
   const uint32_t cap = faces_++;
   size_t kept = 0;

@@ -329,7 +329,8 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
       std::fputs(export_settings_text().c_str(), stdout);
       break;
     case Action::kVersion:
-      std::printf("scadray version %s\n", SCADRAY_VERSION);
+      std::printf("scadray version %s\nlanguages of OpenSCAD: 2026 (default), 2021.01\n",
+                  SCADRAY_VERSION);
       break;
     case Action::kInfo:
       print_info();

@@ -55,13 +55,15 @@ class MergedVertices {
   std::vector<uint32_t> parent_;
 };
 
-bool has_equal_corners(const TriangleCorners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+bool has_equal_corners(const TriangleCorners& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
 
 /// Removes pairs of triangles with the same corners that run in opposite directions.
 void remove_backed_triangles(std::vector<TriangleCorners>& triangles) {
   struct Sorted {
     TriangleCorners corners;  // ascending
-    bool is_odd;      // whether the triangle runs the other way around
+    bool is_odd;              // whether the triangle runs the other way around
     uint32_t index;
   };
   std::vector<Sorted> all;

@@ -357,7 +357,9 @@ TEST_F(Command, HelpVersionInfo) {
   EXPECT_THAT(outcome.out, HasSubstr("--imgsize"));
   outcome = run({"-v"});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
-  EXPECT_THAT(outcome.out, testing::MatchesRegex("scadray version [0-9.]+\n"));
+  EXPECT_THAT(outcome.out,
+              testing::MatchesRegex(
+                  "scadray version [0-9.]+\nlanguages of OpenSCAD: 2026 .default., 2021.01\n"));
   outcome = run({"--info"});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("OpenEXR"), HasSubstr("renderers: cpu")));

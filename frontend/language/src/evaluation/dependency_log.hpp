@@ -1,6 +1,7 @@
 // What the parts of an evaluation have depended on, each part with those within it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
