@@ -10,10 +10,10 @@
 namespace csgcore {
 
 using Vec3 = glm::dvec3;
+using Mat3 = glm::dmat3;  // column-major, as GLM stores it: m[column][row]
 
 /// Returns the largest coordinate.
 inline double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
-using Mat3 = glm::dmat3;  // column-major, as GLM stores it: m[column][row]
 
 /// Closed axis-aligned box. A default-constructed box is empty (min > max) and is the identity of
 /// `merge`. An empty box has no meaningful center() and size().
