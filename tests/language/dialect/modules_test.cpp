@@ -41,6 +41,12 @@ TEST(Modules, LinearExtrude) {
   EXPECT_EQ(said_2026("linear_extrude(\"a\"); linear_extrude(v = 1);"),
             "ERROR: height when specified should be a number.\n"
             "ERROR: v when specified should be a 3d vector.\n");
+  // The numbers before the first element that is none count.
+  expect("5, v = [1, [], 2]",
+         "height = 5, v = [ 0.707107, 0, 0.707107], $fn = 0, $fa = 12, $fs = 2");
+  EXPECT_THAT(said_2026("linear_extrude([1], h = 2, v = \"a\");"),
+              testing::StartsWith("ERROR: v when specified should be a 3d vector.\n"
+                                  "WARNING: Specified both"));
   EXPECT_EQ(tree_2021("linear_extrude(5);"),
             "linear_extrude(height = 5, center = false, convexity = 1, scale = [1, 1], $fn = 0, "
             "$fa = 12, $fs = 2);\n\n");

@@ -142,23 +142,26 @@ struct Sweep {
   std::array<double, 3> direction = {0, 0, 1};
 };
 
-Sweep read_sweep(const BuiltinCall& call, const Value& height, const Value& v) {
+/// Of a `v` that is wrong, the numbers before the first element that is none are taken.
+Sweep read_sweep(const BuiltinCall& call, const Value& v, const Value& named_height,
+                 const Value& h) {
   Sweep sweep;
-  const bool has_v = is_given(v);
-  if (has_v) {
-    std::array<double, 3> along{};
-    const bool is_vector = v.is_vector() && v.elements().size() == 3 && v.holds_numbers();
-    if (is_vector) {
-      for (size_t axis = 0; axis < 3; ++axis) along[axis] = v.elements()[axis].number();
-    } else {
-      say_error(call, "v when specified should be a 3d vector.");
-      along = sweep.direction;
+  if (is_given(v)) {
+    std::array<double, 3> along = sweep.direction;
+    size_t read = 0;
+    if (v.is_vector() && v.elements().size() == along.size()) {
+      while (read < along.size() && v.elements()[read].is_number()) {
+        along[read] = v.elements()[read].number();
+        ++read;
+      }
     }
+    if (read < along.size()) say_error(call, "v when specified should be a 3d vector.");
     sweep.height = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
     if (sweep.height > 0)
       for (double& part : along) part /= sweep.height;
     sweep.direction = along;
   }
+  const Value& height = one_of(call, named_height, h, "height", "h");
   if (is_finite_number(height)) {
     sweep.height = height.number();
   } else if (is_given(height)) {
@@ -175,8 +178,7 @@ Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kHeight, kV, kScale, kCenter, kTwist, kSlices, kSegments, kConvexity, kH };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kLinearExtrude);
-  const Value& height = one_of(call, given[kHeight], given[kH], "height", "h");
-  const Sweep sweep = read_sweep(call, height, given[kV]);
+  const Sweep sweep = read_sweep(call, given[kV], given[kHeight], given[kH]);
   std::array<double, 2> scale = {1, 1};
   double x = 1, y = 1;
   if (is_finite_number(given[kScale])) {
