@@ -111,7 +111,7 @@ struct OpenCall {
 struct Context {
   bool is_statement = false;       // a statement begins here
   bool begins_argument = false;    // an argument of the innermost call does
-  bool is_new_name = false;        // the name of a definition, which nobody knows yet
+  bool is_new_name = false;        // the name of a definition, which is being typed
   bool is_member = false;          // behind a dot
   bool is_text = false;            // within a comment, a string or a number
   std::vector<OpenCall> calls{};   // the innermost last

@@ -69,7 +69,7 @@ class Sources {
   /// Finds what a name means at the top level of a source: what it has itself, includes, uses; or
   /// what an open document has that includes it.
   std::optional<Found> find(const SourcePointer& source, NameSpace space, std::string_view name);
-  /// Finds what a reference means; nothing: a builtin, or nobody knows.
+  /// Finds what a reference means; nothing: it is a builtin, or unknown.
   std::optional<Found> resolve(const SourcePointer& source, const Reference& reference);
   /// Finds what the name at an offset means.
   std::optional<Found> meaning_at(const SourcePointer& source, std::size_t offset);

@@ -285,7 +285,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
   const auto is_line = [](const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   };
-  // Of each colour the triangle is still there.
+  // The triangle of each colour is still there.
   const Triangle* next = triangles_.data();
   std::erase_if(colors_, [&](const auto&) { return is_line(*next++); });
   std::erase_if(triangles_, is_line);

@@ -43,7 +43,7 @@ struct SvgSettings {
   double dpi = 72;  // < 0.001 or nan: 72
   bool is_faceted = false;
   language::LanguageVersion language = language::LanguageVersion::k2021;
-  // Of 2026:
+  // These count by the rules of 2026 alone:
   std::optional<std::string> id{};     // of the elements that are drawn; nothing: all are
   std::optional<std::string> layer{};  // the label of Inkscape's layers that are drawn
   csgcore::FacetSettings facets{};     // of the chords

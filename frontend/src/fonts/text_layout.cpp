@@ -108,7 +108,12 @@ std::vector<PlacedGlyph> lay_out(const TextSettings& text, const TextRun& run, F
   const std::vector<ShapedGlyph> glyphs = font.shape(run);
   Vec2 at(0.0);
   const double units = text.is_placed_exactly ? kOutlineUnits : kAdvanceUnits;
-  if (text.is_placed_exactly) {
+  const bool begins_at_origin =
+      (text.halign == HorizontalAlign::kDefault || text.halign == HorizontalAlign::kLeft) &&
+      (text.valign == VerticalAlign::kDefault || text.valign == VerticalAlign::kBaseline);
+  if (begins_at_origin && !(text.is_placed_exactly && run.is_vertical())) {
+    // The letters' boxes, which take a while to load, do not matter.
+  } else if (text.is_placed_exactly) {
     const MeasuredText measured(glyphs, text.spacing, run.is_vertical(), font);
     at = measured.offset(text.halign, text.valign);
   } else {

@@ -194,9 +194,8 @@ class Composer {
 /// Returns the box around those of a tree's products. That of a product is the intersection of
 /// the boxes of its operands but for those that are subtracted.
 Box box_of_products(const LeafTree& tree, std::span<const Box> boxes) {
-  constexpr size_t kMostBoxes = 1024;      // of an operand: if it has more products, theirs is one
-  std::vector<std::vector<Box>> operands;  // that no operation has taken: their products' boxes
-  const auto intersect = [](const std::vector<Box>& a, const std::vector<Box>& b) {
+  constexpr size_t kMostBoxes = 1024;  // of an operand: if it has more products, theirs is one
+  const auto intersect = [](std::span<const Box> a, std::span<const Box> b) {
     std::vector<Box> both;
     for (const Box& left : a) {
       for (const Box& right : b) {
@@ -204,25 +203,38 @@ Box box_of_products(const LeafTree& tree, std::span<const Box> boxes) {
         if (!box.empty()) both.push_back(box);
       }
     }
+    if (both.size() > kMostBoxes) both = {box_around(both)};
     return both;
   };
+  std::vector<Box> products;   // of the operands that no operation has taken, one after another
+  std::vector<size_t> begins;  // of these operands
   for (const csgcore::CsgToken& token : tree.tokens()) {
     if (token.is_primitive) {
-      operands.push_back({boxes[token.value]});
+      begins.push_back(products.size());
+      products.push_back(boxes[token.value]);
       continue;
     }
-    const auto first = operands.end() - token.value;
-    for (auto operand = first + 1; operand != operands.end(); ++operand) {
-      if (token.op == csgcore::Op::kUnion) {
-        first->insert(first->end(), operand->begin(), operand->end());
-      } else if (token.op == csgcore::Op::kIntersection) {
-        *first = intersect(*first, *operand);
-      }
-      if (first->size() > kMostBoxes) *first = {box_around(*first)};
+    const size_t first = begins.size() - token.value;
+    const size_t begin = begins[first];
+    begins.push_back(products.size());  // the last operand's end
+    if (token.op == csgcore::Op::kDifference) products.resize(begins[first + 1]);
+    if (token.op == csgcore::Op::kIntersection) {
+      const std::span<const Box> all(products);
+      const auto operand = [&](size_t i) {
+        return all.subspan(begins[first + i], begins[first + i + 1] - begins[first + i]);
+      };
+      std::vector<Box> both(operand(0).begin(), operand(0).end());
+      for (size_t i = 1; i < token.value; ++i) both = intersect(both, operand(i));
+      products.resize(begin);
+      products.insert(products.end(), both.begin(), both.end());
     }
-    operands.erase(first + 1, operands.end());
+    begins.resize(first + 1);
+    if (products.size() - begin > kMostBoxes) {
+      products[begin] = box_around(std::span<const Box>(products).subspan(begin));
+      products.resize(begin + 1);
+    }
   }
-  return operands.empty() ? Box() : box_around(operands.front());
+  return box_around(products);
 }
 
 }  // namespace

@@ -328,7 +328,7 @@ std::optional<SimplePolygons> stroked(const Polygon& path, const StrokeSettings&
   const double half_width = grid.scaled(settings.width / unit / 2);
   constexpr double kMiterLimit = 2;  // the library's own, and OpenSCAD's, too
   constexpr double kCoarseTolerance = 0.25;
-  // Of the newer library that OpenSCAD 2026 has: a share of the distance.
+  // A share of the distance, as the newer library of OpenSCAD 2026 has it.
   constexpr double kTolerance2026 = 0.002;
   const double share = settings.chords == StrokeChords::kOf2026
                            ? kTolerance2026

@@ -62,7 +62,8 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data, c
   if (std::ranges::all_of(figures, is_polygonal)) outline = without_slight_corners(*outline);
   const double slices =
       given.slices ? *given.slices : slice_count(layers, *outline, given.facets, given.cuts_edges);
-  Slicing slicing = given.cuts_edges
+  // Smooth sides have pieces of their own.
+  Slicing slicing = given.cuts_edges && data.is_faceted
                         ? cut_slicing(layers, slices, given.segments, given.facets, *outline)
                         : openscad_slicing(slices, given.segments, *outline);
   if (slicing.slices < slices) {

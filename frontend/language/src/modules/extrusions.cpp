@@ -142,7 +142,7 @@ struct Sweep {
   std::array<double, 3> direction = {0, 0, 1};
 };
 
-/// Of a `v` that is wrong, the numbers before the first element that is none are taken.
+/// Reads both. A `v` that is wrong gives the numbers before its first element that is none.
 Sweep read_sweep(const BuiltinCall& call, const Value& v, const Value& named_height,
                  const Value& h) {
   Sweep sweep;
