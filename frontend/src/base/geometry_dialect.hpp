@@ -8,19 +8,10 @@
 
 namespace frontend {
 
-class GeometryDialect {
+class GeometryDialect : public language::VersionTable {
  public:
-  explicit constexpr GeometryDialect(language::LanguageVersion of) : version_(of) {}
+  using VersionTable::VersionTable;
 
- private:
-  const language::LanguageVersion version_;
-
-  template <typename Behaviour>
-  constexpr Behaviour row(Behaviour of_2021, Behaviour of_2026) const {
-    return version_ == language::LanguageVersion::k2021 ? of_2021 : of_2026;
-  }
-
- public:
   /// Whether a fraction of $fn is rounded up; else it is cut off.
   const bool rounds_fragments_up = row(false, true);
   /// Whether the edges of a twisted or unevenly scaled extrusion are cut into segments by $fn or

@@ -52,16 +52,15 @@
 namespace frontend {
 namespace {
 
-using language::LanguageVersion;
-
 /// Reads the document's shapes.
 class SvgReader {
  public:
   SvgReader(const std::string& name, const SvgSettings& settings)
       : name_(name),
         settings_(settings),
+        dialect_(settings.language),
         chords_(svg_chords(settings)),
-        page_(valid_dpi(settings.dpi), settings.language) {}
+        page_(valid_dpi(settings.dpi), dialect_) {}
 
   Drawing read(const pugi::xml_document& document) {
     collect(document.document_element());
@@ -133,9 +132,7 @@ class SvgReader {
     const bool is_alone = shape.path.filled.empty() && shape.path.open.size() == 1;
     for (const CurvePath& path : shape.path.open) {
       StrokeSettings settings = shape.stroke;
-      if (settings_.is_faceted) {
-        settings.chords = is_of_2026() ? StrokeChords::kOf2026 : StrokeChords::kOf2021;
-      }
+      if (settings_.is_faceted) settings.chords = dialect_.pen_chords;
       const Polygon line = settings_.is_faceted ? openscad_points(path) : chords(path, fineness);
       std::optional<SimplePolygons> polygons;
       if (settings_.is_faceted || !is_alone) polygons = stroked(line, settings);
@@ -165,8 +162,6 @@ class SvgReader {
     if (path.last() != path.first()) points.pop_back();
     return points;
   }
-
-  bool is_of_2026() const { return settings_.language == LanguageVersion::k2026; }
 
   Polygon openscad_points(const CurvePath& path) const {
     return path.openscad_points(chords_.bezier(), most_chords_);
@@ -231,6 +226,7 @@ class SvgReader {
 
   const std::string& name_;
   SvgSettings settings_;
+  const SvgDialect dialect_;
   const SvgChords chords_;
   SvgPage page_;
   std::vector<SvgShape> shapes_;

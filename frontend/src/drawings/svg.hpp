@@ -15,6 +15,7 @@
 #include "csgcore/facets.hpp"
 #include "drawings/curve_path.hpp"
 #include "drawings/drawing.hpp"
+#include "drawings/svg_dialect.hpp"
 #include "plane/outlines.hpp"
 #include "plane/plane_map.hpp"
 
@@ -82,8 +83,7 @@ class SvgChords {
 
 /// Returns those that the settings ask for.
 inline SvgChords svg_chords(const SvgSettings& settings) {
-  return settings.language == language::LanguageVersion::k2026 ? SvgChords(settings.facets)
-                                                               : SvgChords();
+  return SvgDialect(settings.language).follows_facets ? SvgChords(settings.facets) : SvgChords();
 }
 
 /// What a path draws: closed parts, which are filled, and open ones, which a pen follows.
@@ -115,7 +115,7 @@ std::optional<SvgShape> read_svg_shape(const pugi::xml_node& element, const SvgS
 /// Returns the value that an attribute gives, or else the attribute `style`; empty where neither
 /// does.
 std::string_view svg_style(const pugi::xml_node& element, const char* name,
-                           language::LanguageVersion language);
+                           const SvgDialect& dialect);
 
 /// An element that is drawn, and the map to the document's coordinates.
 struct SvgElement {
@@ -135,7 +135,7 @@ std::vector<SvgElement> drawn_svg_elements(
 class SvgPage {
  public:
   /// `dpi` is that of lengths without a unit.
-  SvgPage(double dpi, language::LanguageVersion language) : dpi_(dpi), language_(language) {}
+  SvgPage(double dpi, const SvgDialect& dialect) : dpi_(dpi), dialect_(dialect) {}
 
   void take(const pugi::xml_node& svg);
 
@@ -146,7 +146,7 @@ class SvgPage {
 
  private:
   double dpi_;
-  language::LanguageVersion language_;
+  SvgDialect dialect_;
   double height_ = 0;
   Vec2 scale_{1.0};
   Vec2 origin_{0.0};  // of the view box

@@ -12,8 +12,6 @@
 namespace frontend {
 namespace {
 
-using language::LanguageVersion;
-
 bool is_shape(std::string_view name) {
   constexpr std::array<std::string_view, 7> kShapes = {"path", "rect",     "circle", "ellipse",
                                                        "line", "polyline", "polygon"};
@@ -39,7 +37,7 @@ class Walk {
         settings_(settings),
         take_page_(take_page),
         problems_(problems),
-        is_of_2026_(settings.language == LanguageVersion::k2026) {}
+        dialect_(settings.language) {}
 
   std::vector<SvgElement> run() {
     steps_.push_back({Step::kEnter, root_, {}});
@@ -87,7 +85,7 @@ class Walk {
     if (is_in_defs_) return define(node, name);
     const Scope own = scope_of(node, step.scope);
     if (name == "g" && steps_.size() > place) steps_.back().scope = own;
-    if (name == "use" && is_of_2026_) use(node, own);
+    if (name == "use" && dialect_.chooses_elements) use(node, own);
     if (is_shape(name) && is_shown(own)) drawn_.push_back({node, own.map});
   }
 
@@ -96,8 +94,8 @@ class Walk {
     if (node != root_) {
       own.map = compose(around.map, read_svg_transform(node.attribute("transform").value()));
     }
-    if (!is_of_2026_) return own;
-    if (svg_style(node, "display", settings_.language) == "none") own.is_hidden = true;
+    if (!dialect_.chooses_elements) return own;
+    if (svg_style(node, "display", dialect_) == "none") own.is_hidden = true;
     const bool is_layer = settings_.layer &&
                           *settings_.layer == node.attribute("inkscape:label").value() &&
                           std::string_view(node.attribute("inkscape:groupmode").value()) == "layer";
@@ -115,13 +113,13 @@ class Walk {
 
   bool is_shown(const Scope& scope) const {
     if (scope.is_hidden) return false;
-    if (settings_.id) return scope.is_chosen || !is_of_2026_;
-    return scope.is_in_layer || !settings_.layer || !is_of_2026_;
+    if (settings_.id) return scope.is_chosen || !dialect_.chooses_elements;
+    return scope.is_in_layer || !settings_.layer || !dialect_.chooses_elements;
   }
 
   void define(const pugi::xml_node& node, std::string_view name) {
     const pugi::xml_attribute id = node.attribute("id");
-    if (is_of_2026_ && id && name != "text") defined_.try_emplace(id.value(), node);
+    if (dialect_.chooses_elements && id && name != "text") defined_.try_emplace(id.value(), node);
   }
 
   static std::string_view reference_of(const pugi::xml_node& use) {
@@ -168,7 +166,7 @@ class Walk {
           {"Uses in '" + name_ + "' are left out: they draw too much", "use fewer uses of uses"});
     }
     if (!bad_use_.empty()) problems_.push_back({bad_use_, "name an element of the file's defs"});
-    if (!is_of_2026_ || has_match_ || (!settings_.id && !settings_.layer)) return;
+    if (!dialect_.chooses_elements || has_match_ || (!settings_.id && !settings_.layer)) return;
     std::string filter;
     if (settings_.id) filter += "id = \"" + *settings_.id + "\"";
     if (settings_.id && settings_.layer) filter += ", ";
@@ -188,7 +186,7 @@ class Walk {
   const SvgSettings& settings_;
   const std::function<void(const pugi::xml_node&)>& take_page_;
   std::vector<DrawingProblem>& problems_;
-  const bool is_of_2026_;
+  const SvgDialect dialect_;
   std::vector<Step> steps_;  // to be taken, the next one last
   bool is_in_defs_ = false;
   std::map<std::string, pugi::xml_node, std::less<>> defined_;  // by id

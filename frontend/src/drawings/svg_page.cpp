@@ -16,24 +16,22 @@ constexpr double kPixelsPerInch = 96;  // of CSS
 constexpr double kPointsPerInch = 72;
 constexpr double kPicasPerInch = 6;
 
-using language::LanguageVersion;
-
 struct Length {
   double number = 0;
   enum class Unit : uint8_t { kNone, kPercent, kRelative, kMillimetres } unit = Unit::kNone;
 };
 
 /// Returns nothing where the length is missing or cannot be read.
-std::optional<Length> read_length(std::string_view text, LanguageVersion language) {
+std::optional<Length> read_length(std::string_view text, const SvgDialect& dialect) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
   std::string_view unit(end, static_cast<size_t>(text.data() + text.size() - end));
-  if (language == LanguageVersion::k2026) unit = trimmed_svg(unit);
+  if (dialect.trims_words) unit = trimmed_svg(unit);
   const auto in_mm = [&](double mm) { return Length{number * mm, Length::Unit::kMillimetres}; };
   if (unit.empty()) return Length{number, Length::Unit::kNone};
-  if (unit == "%" && language == LanguageVersion::k2026) {
+  if (unit == "%" && dialect.has_percents) {
     return Length{number, Length::Unit::kPercent};
   }
   if (unit == "%" || unit == "em" || unit == "ex") return Length{number, Length::Unit::kRelative};
@@ -142,8 +140,8 @@ std::optional<PlaneMap> transformation(std::string_view name, const std::vector<
 
 void SvgPage::take(const pugi::xml_node& svg) {
   const std::optional<ViewBox> box = read_view_box(svg.attribute("viewBox").value());
-  const std::optional<Length> width = read_length(svg.attribute("width").value(), language_);
-  const std::optional<Length> height = read_length(svg.attribute("height").value(), language_);
+  const std::optional<Length> width = read_length(svg.attribute("width").value(), dialect_);
+  const std::optional<Length> height = read_length(svg.attribute("height").value(), dialect_);
   height_ = resolved(height, box ? box->size.y : 0, dpi_);
   if (!box) return;
   const Vec2 page(resolved(width, box->size.x, dpi_), height_);

@@ -11,19 +11,17 @@
 namespace frontend {
 namespace {
 
-using language::LanguageVersion;
-
-StrokeSettings read_stroke(const pugi::xml_node& element, LanguageVersion language) {
+StrokeSettings read_stroke(const pugi::xml_node& element, const SvgDialect& dialect) {
   StrokeSettings settings;
-  if (language == LanguageVersion::k2026) settings.ends = LineEnds::kButt;
+  settings.ends = dialect.line_ends;
   constexpr double kLeastWidth = 0.01;  // what is thinner has OpenSCAD's width of 1
-  const double width = svg_number(svg_style(element, "stroke-width", language));
+  const double width = svg_number(svg_style(element, "stroke-width", dialect));
   if (width >= kLeastWidth && std::isfinite(width)) settings.width = width;
-  const std::string_view ends = svg_style(element, "stroke-linecap", language);
+  const std::string_view ends = svg_style(element, "stroke-linecap", dialect);
   if (ends == "butt") settings.ends = LineEnds::kButt;
   if (ends == "square") settings.ends = LineEnds::kSquare;
   if (ends == "round") settings.ends = LineEnds::kRound;
-  const std::string_view corners = svg_style(element, "stroke-linejoin", language);
+  const std::string_view corners = svg_style(element, "stroke-linejoin", dialect);
   if (corners == "bevel") settings.corners = CornerStyle::kSquare;
   if (corners == "round") settings.corners = CornerStyle::kRound;
   return settings;
@@ -95,10 +93,10 @@ CurvePath read_rectangle(const pugi::xml_node& element, const SvgChords& chords)
 }  // namespace
 
 std::string_view svg_style(const pugi::xml_node& element, const char* name,
-                           LanguageVersion language) {
+                           const SvgDialect& dialect) {
   if (const pugi::xml_attribute own = element.attribute(name)) return own.value();
   const auto tidy = [&](std::string_view word) {  // 2021.01 takes no blanks
-    return language == LanguageVersion::k2026 ? trimmed_svg(word) : word;
+    return dialect.trims_words ? trimmed_svg(word) : word;
   };
   std::string_view style = element.attribute("style").value();
   const std::string_view wanted(name);
@@ -138,7 +136,7 @@ std::optional<SvgShape> read_svg_shape(const pugi::xml_node& element, const SvgS
   } else {
     return std::nullopt;
   }
-  shape.stroke = read_stroke(element, settings.language);
+  shape.stroke = read_stroke(element, SvgDialect(settings.language));
   return shape;
 }
 

@@ -13,22 +13,15 @@
 
 namespace language {
 
-class Dialect {
- public:
-  explicit constexpr Dialect(LanguageVersion of) : version(of) {}
-
-  const LanguageVersion version;
-
+class Dialect : public VersionTable {
  private:
-  template <typename Behaviour>
-  constexpr Behaviour row(Behaviour of_2021, Behaviour of_2026) const {
-    return version == LanguageVersion::k2021 ? of_2021 : of_2026;
-  }
   constexpr std::string_view words(std::string_view of_2021, std::string_view of_2026) const {
     return row(of_2021, of_2026);
   }
 
  public:
+  using VersionTable::VersionTable;
+
   // Text
 
   /// Whether `0x1F` is a number; else it is a name.
