@@ -82,14 +82,14 @@ constexpr bool is_general(Path path) {
 }
 
 /// Compiles every set of kinds that a scene may have. That takes minutes, so that a sample has
-/// every fifth, or 25th: five shares no factor with the periods of the bits and paths.
+/// every eleventh, or 25th, which share no factor with the periods of the bits and paths.
 TEST(ShaderTest, EveryVariantCompiles) {
   HeadlessContext context;
   const Roles roles = find_roles();
   // The sets of enclosures, each with all cuts and without any, and with all kinds that are not
   // convex and without any.
   const int sets = 1 << roles.enclosures.size();
-  const int step = test_support::full_run() ? 1 : test_support::does_less() ? 25 : 5;
+  const int step = test_support::full_run() ? 1 : test_support::does_less() ? 25 : 11;
   int variants = 0;
   for (int path = 0; path < kPaths; ++path) {
     for (int bits = 0; bits < 256 * sets; ++bits) {

@@ -461,7 +461,7 @@ uint32_t trees_of_a_part() {
   if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
     return uint32_t(std::strtoul(trees, nullptr, 10)) / kParts;
   }
-  return (test_support::full_run() ? kFullTrees : kSampleTrees) / kParts;
+  return (test_support::full_run() ? kFullTrees : test_support::sample_size(kSampleTrees)) / kParts;
 }
 
 uint32_t lines_of_a_tree() { return test_support::full_run() ? 250 : 60; }
@@ -572,7 +572,9 @@ MeshParts odd_surface(std::mt19937& random) {
 }
 
 /// Returns the number of inputs, of the hundred thousand that a full run has.
-uint32_t odd_inputs() { return test_support::full_run() ? 100'000 : 1'500; }
+uint32_t odd_inputs() {
+  return test_support::full_run() ? 100'000 : test_support::sample_size(1'500);
+}
 
 TEST(BoundaryMeshOfOddNumbers, IsAClosedSurface) {
   for (uint32_t seed = 1; seed <= odd_inputs(); ++seed) {

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "checks.hpp"
+#include "support/full_run.hpp"
 #include "support/models.hpp"
 
 namespace csgcore {
@@ -35,7 +36,7 @@ class SubdivisionBy : public testing::TestWithParam<std::tuple<uint32_t, SplitRu
 };
 
 TEST_P(SubdivisionBy, RandomTreesKeepTheirMeaning) {
-  for (uint32_t seed = 0; seed < 12; ++seed) {
+  for (uint32_t seed = 0; seed < test_support::sample_size(12); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = test_support::random_tree_of_all_kinds(4 + 3 * seed, seed);
     const Solid solid = solid_of(scene);

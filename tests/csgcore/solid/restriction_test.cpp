@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "checks.hpp"
+#include "support/full_run.hpp"
 #include "support/models.hpp"
 
 namespace csgcore {
@@ -55,7 +56,7 @@ TEST_P(RestrictionOf, RandomTreeEqualsTheListWithinTheCell) {
   CellList whole, in_cell, below, above;
   assign(whole, solid.list().tests);
   std::mt19937 random(1);
-  for (int round = 0; round < 60; ++round) {
+  for (uint32_t round = 0; round < test_support::sample_size(60); ++round) {
     const Box cell = random_cell(random, {Vec3(-8.0), Vec3(8.0)});
     restrictor.restrict(whole, cell, in_cell);
     expect_irreducible(solid, in_cell, cell, true);

@@ -34,4 +34,8 @@ class Snapshot:
         job = {"files": files, "copies": copies, "arguments": arguments, "wanted": wanted}
         self.process.stdin.write(json.dumps(job) + "\n")
         self.process.stdin.flush()
-        return json.loads(self.process.stdout.readline())
+        answer = self.process.stdout.readline()
+        if not answer:  # node itself has ended: a new one answers the next job
+            self.jobs = 0
+            return {"status": "node has ended", "said": "", "made": None}
+        return json.loads(answer)
