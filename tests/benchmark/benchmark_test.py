@@ -126,6 +126,9 @@ class WrongPrograms(Benchmark):
         judge = self.program('echo \'{"double": {"wrong": 7}}\'')
         with self.assertRaisesRegex(WrongAnswer, "differs from exact rays in 7 pixels"):
             error.Subject("r9", Settings(SCADRAY, str(judge), self.folder))
+        result = self.measure("--section", "real", "--judge", str(judge))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("differs from exact rays in 7 pixels", result.stderr)
 
 
 class SlowSearch(Benchmark):
@@ -156,15 +159,17 @@ class SlowSearch(Benchmark):
 
 class Results(Benchmark):
     def test_the_report_reads_what_is_measured(self):
-        result = self.measure("--section", "growth", "--section", "stability", "--section", "frames")
+        result = self.measure("--section", "real", "--section", "growth", "--section", "stability", "--section", "frames")
         self.assertEqual(result.returncode, 0, result.stderr)
         results = json.loads(self.results.read_text())
         for curve in results["sections"]["stability"]["curves"]:
             self.assertEqual(curve["rows"][0]["double"]["wrong"], 0)
+        for design in results["sections"]["real"]["designs"]:
+            self.assertLessEqual(design.get("facets_off", 0), 32, design["design"])
         text = report.report_text(results, self.folder)
-        for heading in ("How it grows", "What cannot be seen", "Pixels and threads", "Numerical stability"):
+        for heading in ("Designs that people draw", "How it grows", "What cannot be seen", "Pixels and threads", "Numerical stability"):
             self.assertIn(f"\n## {heading}\n", text)
-        for plot in ("growth", "frames", "stability_angle"):
+        for plot in ("real", "growth", "frames", "stability_angle"):
             self.assertIn(f"({plot}.svg)", text)
             self.assertTrue((self.folder / f"{plot}.svg").exists())
         first = (self.folder / "growth.svg").read_bytes()

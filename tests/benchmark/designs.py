@@ -1,10 +1,11 @@
 """The designs that are measured: examples, and made ones of any size."""
 
 import math
+import pathlib
 
 import numpy
 
-from measuring import EXAMPLES, run_right
+from measuring import EXAMPLES, ROOT, run_right
 
 
 def design(name, settings):
@@ -24,6 +25,27 @@ def written(settings, name, text):
     path = settings.work / name
     path.write_text(text)
     return path
+
+
+# --- Designs of the kinds that people publish: ours, and those of Debian's package openscad ---
+
+OPENSCAD = pathlib.Path("/usr/share/openscad/examples")
+OWN = ROOT / "tests/benchmark/designs"
+REAL = [(folder / f"{name}.scad", kind) for kind, folder, names in [
+    ("box", OWN, "snap_box bin rounded"), ("box", EXAMPLES, "box enclosure shell"),
+    ("thread", OWN, "thread"), ("thread", EXAMPLES, "bolt cap nut_trap"),
+    ("gear", OWN, "gears"), ("gear", EXAMPLES, "gear pulley belt_pulley"),
+    ("vase", OWN, "twisted_vase"), ("vase", EXAMPLES, "vase"), ("vase", OPENSCAD / "Basics", "rotate_extrude"),
+    ("text", OWN, "dice"), ("text", EXAMPLES, "sign"), ("text", OPENSCAD / "Basics", "LetterBlock text_on_cube"),
+    ("hulls", OWN, "hull_chain"), ("hulls", EXAMPLES, "handle knob"), ("hulls", OPENSCAD / "Old", "example006"),
+    ("import", EXAMPLES, "stamp mould"), ("import", OPENSCAD / "Old", "example007 example010 example016"),
+    ("Customizer", OPENSCAD / "Parametric", "candleStand sign"),
+    ("library", OWN, "attachments"), ("library", EXAMPLES, "flange bracket"),
+    ("extrusion", OPENSCAD / "Basics", "linear_extrude"), ("extrusion", OWN, "honeycomb"),
+    ("extrusion", OPENSCAD / "Old", "example020"), ("projection", OPENSCAD / "Advanced", "GEB"),
+    ("drawing", OWN, "laser_box"), ("assembly", OWN, "assembly"), ("assembly", OPENSCAD / "Old", "example017"),
+    ("recursion", OPENSCAD / "Advanced", "module_recursion"), ("recursion", OPENSCAD / "Old", "example024"),
+] for name in names.split()]
 
 
 # --- Families that grow. Each makes the file of n of what it counts ---

@@ -25,8 +25,9 @@ import types
 import numpy
 
 from designs import design
-from measuring import (MISS, SIZE, Display, LeftOut, WrongAnswer, differing, in_turn, picture_command, read_exr,
-                       read_png, run, run_right, say, summary)
+from display import Display
+from measuring import (MISS, SIZE, LeftOut, WrongAnswer, differing, in_turn, picture_command, read_exr, read_png, run,
+                       run_right, say, summary)
 
 MEASURES = {
     "wrong": "pixels whose centre shows another primitive than it ought to, or a hit for a miss",

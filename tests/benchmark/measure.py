@@ -13,10 +13,11 @@ import sys
 import error
 import growth
 import paper
+import real
 from measuring import ROOT, Settings, WrongAnswer, run, say
 
 # Each measures one section, and checks its answers before it takes a time.
-SECTIONS = {"error": error.measure, "growth": growth.measure_growth, "frames": growth.measure_frames,
+SECTIONS = {"real": real.measure, "error": error.measure, "growth": growth.measure_growth, "frames": growth.measure_frames,
             "stability": growth.measure_stability, "opengl": paper.measure_opengl, "paper": paper.measure_paper}
 
 

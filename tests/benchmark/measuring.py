@@ -122,27 +122,6 @@ def in_turn(works, settings, least=5, most=50, long_enough_ms=2000):
     return [summary(all_ms) for all_ms in times]
 
 
-class Display:
-    """An X server of one's own, for OpenSCAD; its name is empty where there is none."""
-
-    def __enter__(self):
-        read, write = os.pipe()
-        try:
-            self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24",
-                                            "-nolisten", "tcp"], pass_fds=[write], stderr=subprocess.DEVNULL)
-        except FileNotFoundError:
-            self.server = None
-        os.close(write)
-        number = os.fdopen(read).readline().strip()
-        self.name = ":" + number if number else ""
-        return self
-
-    def __exit__(self, *_):
-        if self.server:
-            self.server.terminate()
-            self.server.wait()
-
-
 # --- scadray ---
 
 

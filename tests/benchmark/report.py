@@ -175,6 +175,51 @@ def least_ahead(scenes):
                number(ratio)]
 
 
+TIMES = {"picture_ms": "picture", "save_ms": "save", "model_ms": "model", "preview_ms": "2021.01: preview",
+         "render_ms": "model", "manifold_ms": "2025.07: model"}
+
+
+def real_ratio_rows(section):
+    return [[ratio["what"], ratio["count"], number(ratio["median"]),
+             reached(ratio["median"], ratio["at_least"]) if ratio["at_least"] else "",
+             f"{number(ratio['least'])} ({ratio['of']})", reached(ratio["least"], 1)] for ratio in section["ratios"]]
+
+
+REAL_RATIOS = ["scadray against", "designs", "times as fast, median", "wanted", "least", "wanted"]
+
+
+def share(check):
+    return f"{number(100 - 100 * check['undecided'] / check['pixels'])}%" if check else "–"
+
+
+def write_real(section, folder):
+    text = "\n## Designs that people draw\n" + paragraph("""Medians in ms: whole processes from the text to the picture at
+        640×480 and to the model (an STL, or an SVG of a drawing), by scadray and by OpenSCAD 2021.01; of scadray's
+        window, from a save that changes a small part to the screen; and of OpenSCAD 2025.07.18's model by Manifold,
+        which is one thread of WebAssembly without the start of its process. *Exact* is the share of the smooth picture's
+        pixels that rays in exact arithmetic decide: no other one is shown; *facets* those that OpenSCAD's comparison leaves between its preview and
+        scadray's picture of the same facets (32 pass); *preview off* the pixels of its preview that are visibly
+        different from the exact picture.""")
+    text += table(REAL_RATIOS, real_ratio_rows(section))
+    panel = Panel("From the text to the picture", "OpenSCAD 2021.01's preview, ms", "scadray, ms")
+    rows = []
+    for design in section["designs"]:
+        if design["preview_ms"]:
+            panel.add(design["kind"], design["preview_ms"]["median"], design["picture_ms"])
+        rows.append([design["design"], design["kind"], number(design["primitives"]),
+                     *(median(design[key]) if design.get(key) else "–" for key in TIMES),
+                     share(design["check"]), number(design.get("facets_off")),
+                     number(design.get("peer_off"))])
+    text += figure(folder, "real", "scadray's time over that of OpenSCAD's preview", [panel])
+    return text + table(["design", "kind", "primitives", *TIMES.values(), "exact", "facets", "preview off"], rows)
+
+
+def real_summary(section):
+    """The section's table for README.md."""
+    return paragraph(f"""{len(section['designs'])} designs of the kinds that people publish, from the text to the
+        picture or the model.""") + table(REAL_RATIOS, real_ratio_rows(section))
+
+
 def write_error(section, folder):
     scenes, picture = section["scenes"], section["picture"]
     text = "\n## Time against error\n" + paragraph(f"""From file to picture, whole processes,
@@ -413,7 +458,7 @@ def write_paper(section, folder):
     return text + figure(folder, "paper_dependence", "T_R over area and depth complexity", panels)
 
 
-CHAPTERS = {"error": write_error, "growth": write_growth, "frames": write_frames, "stability": write_stability,
+CHAPTERS = {"real": write_real, "error": write_error, "growth": write_growth, "frames": write_frames, "stability": write_stability,
             "opengl": write_opengl, "paper": write_paper}
 
 
@@ -461,8 +506,9 @@ def main():
     for plot in options.report.glob("*.svg"):
         plot.unlink()
     text = report_text(results, options.report)
-    error = results["sections"].get("error")
-    readme = with_part(readme, machine_text(results["machine"]) + (error_summary(error) if error else ""))
+    parts = [write(results["sections"][name]) for name, write in {"real": real_summary, "error": error_summary}.items()
+             if name in results["sections"]]
+    readme = with_part(readme, machine_text(results["machine"]) + "".join(parts))
     (options.report / "README.md").write_text(text)
     options.summary.write_text(readme)
 

@@ -1,8 +1,8 @@
 // Evaluates designs by OpenSCAD's snapshot of 2025.07.18. Each line of the standard input is a job, a JSON
 // object: `files` by path, `copies` of this computer's files by path, `arguments` of the command line,
-// `wanted`, a path that is read afterwards. Each job is answered by a line: `status`, `said` (the messages)
-// and `made` (the text of the wanted file, or null). An instance of the program runs once; the next one is
-// made while it is not needed yet.
+// `wanted`, a path that is read afterwards. Each job is answered by a line: `status`, `said` (the messages),
+// `made` (the text of the wanted file, or null) and `ms` (what it took, its start left out). An instance
+// of the program runs once; the next one is made while it is not needed yet.
 import { readFileSync } from "node:fs";
 import { createInterface } from "node:readline";
 
@@ -25,18 +25,20 @@ function answer({ instance, said }, job) {
   for (const [path, text] of Object.entries(job.files)) instance.FS.writeFile(path, text);
   for (const [path, source] of Object.entries(job.copies ?? {})) instance.FS.writeFile(path, readFileSync(source));
   let status;
+  const start = performance.now();
   try {
     status = instance.callMain(job.arguments);
   } catch (error) {
     status = String(error);
   }
+  const ms = performance.now() - start;
   let made = null;
   try {
     made = instance.FS.readFile(job.wanted, { encoding: "utf8" });
   } catch {
     // The program has written none.
   }
-  return { status, said: said.join("\n"), made };
+  return { status, said: said.join("\n"), made, ms };
 }
 
 let next = makeInstance();
