@@ -326,6 +326,7 @@ void Application::draw_frame() {
   draw_panels();
   window_.end_frame();
   update_inputs();
+  if (std::exchange(shows_version_, false)) note_shown();
   if (std::exchange(has_new_picture_, false)) report_picture();
 }
 
@@ -441,20 +442,24 @@ void Application::take_painting(Painting painting) {
     write_picture(painting);
   }
   painting.image = {};
+  shows_version_ = state_.version && painting.order.design == state_.version->design;
   has_new_picture_ |= painting.is_final;
   if (painting.is_final && painting.order.number == ordered_.number) is_picture_stopped_ = false;
   state_.painting = std::move(painting);
 }
 
+/// Takes the time from the save to the first picture of its version, which refined ones may follow.
+void Application::note_shown() {
+  if (!state_.version || state_.version->number == reported_version_) return;
+  reported_version_ = state_.version->number;
+  save_to_screen_ms_ =
+      std::chrono::duration<double, std::milli>(Clock::now() - state_.version->noticed).count();
+}
+
 /// Reports the picture that is on the screen.
 void Application::report_picture() {
-  double save_to_screen_ms = -1;
-  if (state_.version && state_.version->number != reported_version_) {
-    reported_version_ = state_.version->number;
-    save_to_screen_ms =
-        std::chrono::duration<double, std::milli>(Clock::now() - state_.version->noticed).count();
-  }
-  report_.write(state_, save_to_screen_ms);
+  note_shown();
+  report_.write(state_, std::exchange(save_to_screen_ms_, -1));
 }
 
 PaintOrder Application::wanted_picture() const {

@@ -91,6 +91,7 @@ class Application final : private WindowEvents {
   void begin_frame();
   void draw_panels();
   void draw_frame();
+  void note_shown();
   void report_picture();
   void wait_for_display();
   void show_title();
@@ -128,6 +129,8 @@ class Application final : private WindowEvents {
   uint64_t saving_ = 0;              // number of the order for saving; 0: not ordered yet
   bool is_picture_stopped_ = false;  // the last order was given up at the user's wish
   uint64_t reported_version_ = 0;
+  double save_to_screen_ms_ = -1;  // until it is reported; negative: there is none
+  bool shows_version_ = false;     // the next frame has a picture of the newest version
   bool has_new_picture_ = false;
   std::string opening_;        // the path of the design that was chosen, until it is opened
   uint64_t oldest_order_ = 0;  // number of the first order for the design that is shown
