@@ -52,6 +52,7 @@ TEST(Functions, TellWhichArgument) {
   type("norm(1)", "argument 0: expected vector, found number (1)");
   type("cross([1, 2], 3)", "argument 1: expected vector, found number (3)");
   type("lookup(1, \"a\")", "argument 1: expected vector, found string (\"a\")");
+  type("lookup(1 / 0, 2)", "argument 1: expected vector, found number (2)");
   type("ord(1)", "argument 0: expected string, found number (1)");
   type("min([1, \"a\"])", "vector element 1: expected number, found string (\"a\")");
   type("max(3, [1])", "argument 1: expected number, found vector ([1])");

@@ -41,8 +41,10 @@ struct Neighbours {
 
 Value lookup(const FunctionCall& call) {
   const Value &key = call.arguments[0], &table = call.arguments[1];
-  if (!key.is_number() && call.environment.dialect.tells_wrong_arguments)
-    return not_converted(call, 0, "number");
+  if (call.environment.dialect.tells_wrong_arguments) {
+    if (!key.is_number()) return not_converted(call, 0, "number");
+    if (!table.is_vector()) return no_vector(call, 1);
+  }
   if (!key.is_number() || !std::isfinite(key.number())) {
     call.warn("lookup(" + echo_text(key) + ", ...) first argument is not a number");
     return Value::undef();
