@@ -45,6 +45,10 @@ ExitCode serve_editor(const Options& options) {
   {
     Server server(
         options.language, [](const Json& message) { write_output(framed(message)); },
+        [](Json message, const frontend::Bytes& image) {
+          message["params"]["data"] = base64(image);
+          write_output(framed(message));
+        },
         [&](std::function<void()> work) {
           Inbox::Item item;
           item.work = std::move(work);

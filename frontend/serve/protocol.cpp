@@ -15,9 +15,9 @@ bool is_plain(char c) {
          std::string_view("-._~/").find(c) != std::string_view::npos;
 }
 
-RequestError invalid(const std::string& what) { return {ErrorCode::kInvalidParams, what}; }
-
 }  // namespace
+
+RequestError invalid(const std::string& what) { return {ErrorCode::kInvalidParams, what}; }
 
 std::string path_of_uri(std::string_view uri) {
   if (!uri.starts_with(kScheme)) return "-";

@@ -11,6 +11,9 @@
 
 namespace serve {
 
+/// Returns the error of parameters.
+RequestError invalid(const std::string& what);
+
 /// Returns the path of a `file:` URI; "-" of any other.
 std::string path_of_uri(std::string_view uri);
 std::string uri_of_path(std::string_view path);

@@ -94,6 +94,24 @@ std::string framed(const Json& message) {
   return "Content-Length: " + std::to_string(text.size()) + "\r\n\r\n" + text;
 }
 
+std::string base64(std::span<const std::byte> bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  const auto byte = [&](std::size_t i) {
+    return i < bytes.size() ? std::to_integer<uint32_t>(bytes[i]) : 0;
+  };
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    const std::size_t digits = std::min<std::size_t>(bytes.size() - i, 3) + 1;
+    for (std::size_t digit = 0; digit < digits; ++digit)
+      text[to + digit] = kDigits[bits >> (18 - 6 * digit) & 63];
+    to += 4;
+  }
+  return text;
+}
+
 Json response_of(const Json& id, Json result) {
   return {{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}};
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace serve {
@@ -59,6 +60,9 @@ class FrameReader {
 
 /// Returns a message with its header.
 std::string framed(const Json& message);
+
+/// Returns bytes in base64 (RFC 4648).
+std::string base64(std::span<const std::byte> bytes);
 
 Json response_of(const Json& id, Json result);
 Json error_of(const Json& id, const RequestError& error);

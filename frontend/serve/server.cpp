@@ -31,12 +31,28 @@ const Json& document_of(const Json& params) { return member_of(params, "textDocu
 
 }  // namespace
 
-Server::Server(language::LanguageVersion version, Send send, Post post)
+Server::Server(language::LanguageVersion version, Send send, SendFrame send_frame, Post post,
+               const std::string& only_design)
     : version_(version),
       send_(std::move(send)),
       post_(std::move(post)),
-      workspace_(version, [this](const std::string&) { post_([this] { publish(); }); }),
-      sources_(workspace_) {}
+      shows_one_design_(!only_design.empty()),
+      state_(shows_one_design_ ? State::kInitialized : State::kNew),
+      workspace_(version,
+                 [this](const std::string& key) {
+                   post_([this, key] {
+                     previews_.notice_document(key);
+                     publish();
+                   });
+                 }),
+      sources_(workspace_),
+      previews_(workspace_,
+                {send_, std::move(send_frame), post_,
+                 [this](const std::string& key, const std::string& path) {
+                   return uri_of(key, path);
+                 },
+                 [this] { return encoding_; }},
+                only_design) {}
 
 const std::map<std::string, Server::Handler, std::less<>>& Server::requests() {
   static const std::map<std::string, Handler, std::less<>> kRequests = {
@@ -85,6 +101,12 @@ void Server::handle(const Json& message, bool is_cancelled) {
   const Json& id = message["id"];
   try {
     if (is_cancelled) throw RequestError{ErrorCode::kRequestCancelled, "cancelled"};
+    check_order(method);
+    if (Previews::has_request(method)) {
+      const Reply reply{[this, id](Json result) { send_(response_of(id, std::move(result))); },
+                        [this, id](const RequestError& error) { send_(error_of(id, error)); }};
+      return previews_.request(method, params, reply);
+    }
     send_(response_of(id, answer(method, params)));
   } catch (const RequestError& error) {
     send_(error_of(id, error));
@@ -93,26 +115,39 @@ void Server::handle(const Json& message, bool is_cancelled) {
   }
 }
 
-Json Server::answer(const std::string& method, const Json& params) {
-  const auto handler = requests().find(method);
-  if (handler == requests().end())
+bool Server::is_offered(const std::string& method) const {
+  if (Previews::has_request(method) || Previews::has_notification(method)) return true;
+  if (shows_one_design_) return method == "shutdown";
+  return requests().contains(method) || notifications().contains(method);
+}
+
+void Server::check_order(const std::string& method) const {
+  if (!is_offered(method))
     throw RequestError{ErrorCode::kMethodNotFound, "there is no request " + method};
   const bool is_first = method == "initialize";
   if (state_ == State::kNew && !is_first)
     throw RequestError{ErrorCode::kServerNotInitialized, "the first request is initialize"};
   if (state_ == State::kShutDown || (is_first && state_ != State::kNew))
     throw RequestError{ErrorCode::kInvalidRequest, method + " is out of order"};
+}
+
+Json Server::answer(const std::string& method, const Json& params) {
+  const auto handler = requests().find(method);
+  if (handler == requests().end())
+    throw RequestError{ErrorCode::kMethodNotFound, "there is no request " + method};
   return (this->*handler->second)(params);
 }
 
 /// A notification has no answer; a wrong one is told of in the client's log.
 void Server::take_notice(const std::string& method, const Json& params) {
   if (method == "exit") has_ended_ = true;
+  if (state_ != State::kInitialized || !is_offered(method)) return;
   const auto handler = notifications().find(method);
-  if (state_ != State::kInitialized || handler == notifications().end()) return;
   std::string problem;
   try {
-    return (this->*handler->second)(params);
+    if (Previews::has_notification(method)) return previews_.notify(method, params);
+    if (handler != notifications().end()) (this->*handler->second)(params);
+    return;
   } catch (const RequestError& error) {
     problem = error.message;
   } catch (const std::exception& error) {
@@ -183,11 +218,13 @@ void Server::open(const Json& params) {
 void Server::change(const Json& params) {
   const std::string key = key_of(params);
   const DocumentPointer document = workspace_.find(key);
-  if (!document) throw RequestError{ErrorCode::kInvalidParams, "the document is not open"};
+  if (!document || !document->is_open)
+    throw RequestError{ErrorCode::kInvalidParams, "the document is not open"};
   const uint32_t version = number_of(member_of(document_of(params), "version"));
   workspace_.change(key, version,
                     changed_text(document->text, member_of(params, "contentChanges"), encoding_));
   sources_.invalidate(false);
+  previews_.notice_document(key);
 }
 
 void Server::save(const Json& params) {
@@ -258,6 +295,8 @@ void Server::add_diagnostics(const Document& document, std::map<std::string, Jso
   };
   std::vector<std::pair<std::string, Json>> diagnostics;
   for (const Said& said : document.evaluated->said) {
+    if (said.group == language::MessageGroup::kEcho || said.group == language::MessageGroup::kPlain)
+      continue;
     Json json = json_of(said, encoding_);
     const std::string& uri = uri_of_said(said);
     if (said.group != language::MessageGroup::kTrace) {
@@ -279,7 +318,8 @@ void Server::publish() {
   for (const auto& [key, uri] : uris_) all[uri] = Json::array();
   const std::set<std::string> included = included_documents();
   for (const DocumentPointer& document : workspace_.documents()) {
-    if (document->evaluated && !included.contains(document->key)) add_diagnostics(*document, all);
+    const bool is_shown = document->is_open && document->evaluated;
+    if (is_shown && !included.contains(document->key)) add_diagnostics(*document, all);
   }
   for (const auto& [uri, list] : published_)
     if (!list.empty()) all.try_emplace(uri, Json::array());

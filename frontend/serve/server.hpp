@@ -7,6 +7,7 @@
 #include <string>
 
 #include "features.hpp"
+#include "previews.hpp"
 #include "rpc.hpp"
 #include "sources.hpp"
 #include "workspace.hpp"
@@ -17,11 +18,15 @@ namespace serve {
 class Server {
  public:
   using Send = std::function<void(const Json& message)>;
+  /// Sends a message whose parameters lack `data`: the image.
+  using SendFrame = std::function<void(const Json& message, const frontend::Bytes& image)>;
   using Post = std::function<void(std::function<void()> work)>;
 
   /// `send` gets the messages to the client. `post`, which another thread may call, has work done
-  /// by the server's thread, in order.
-  Server(language::LanguageVersion version, Send send, Post post);
+  /// by the server's thread, in order. With the path of a design it is initialized, and shows that
+  /// alone, as it is in its file.
+  Server(language::LanguageVersion version, Send send, SendFrame send_frame, Post post,
+         const std::string& only_design = "");
 
   /// Handles a message, and answers it if it is a request. Throws nothing.
   void handle(const Json& message, bool is_cancelled = false);
@@ -41,6 +46,8 @@ class Server {
   static const std::map<std::string, Handler, std::less<>>& requests();
   static const std::map<std::string, void (Server::*)(const Json&), std::less<>>& notifications();
 
+  void check_order(const std::string& method) const;
+  bool is_offered(const std::string& method) const;
   Json answer(const std::string& method, const Json& params);
   void take_notice(const std::string& method, const Json& params);
 
@@ -81,7 +88,8 @@ class Server {
   const language::LanguageVersion version_;
   const Send send_;
   const Post post_;
-  State state_ = State::kNew;
+  const bool shows_one_design_;
+  State state_;
   bool has_ended_ = false;
   PositionEncoding encoding_ = PositionEncoding::kUtf16;
   bool watches_files_ = false;               // the client can be asked to tell of them
@@ -91,6 +99,7 @@ class Server {
   std::map<std::string, int64_t> told_;      // by URI: of which version
   Workspace workspace_;
   Sources sources_;
+  Previews previews_;
 };
 
 }  // namespace serve

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "fonts/text_meter.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
 #include "language/stopped.hpp"
 #include "tokens.hpp"
 
@@ -14,14 +17,22 @@ namespace {
 using language::TextOverlay;
 
 /// The most that is kept of what an evaluation says: a loop may say a million things.
-constexpr std::size_t kMostSaid = 1000;
+constexpr std::size_t kMostSaid = 1000;  // and as many echoes
 constexpr std::size_t kMostBytes = 4000;  // of each
 
-/// Returns a file's text without what the evaluator has appended.
-std::string own_text(std::string_view text) {
-  constexpr std::string_view kAppended = "\n\x03\n";
-  if (text.ends_with(kAppended)) text.remove_suffix(kAppended.size());
-  return std::string(text);
+/// Takes a file's text as it is now; the same object if it has not changed.
+Document read_again(Document document) {
+  try {
+    const frontend::FileText text = frontend::read_regular_file(document.path);
+    document.problem.clear();
+    if (document.text && document.text->bytes() == text.view()) return document;
+    document.text = std::make_shared<const Text>(std::string(text.view()));
+  } catch (const frontend::Error& error) {
+    document.problem = error.what();
+    if (!document.text) document.text = std::make_shared<const Text>("");
+  }
+  ++document.version;
+  return document;
 }
 
 /// Turns lines into Said.
@@ -32,8 +43,8 @@ class SaidCollector {
 
   void take(const language::SaidLine& line) {
     using language::MessageGroup;
-    if (line.group == MessageGroup::kPlain || line.group == MessageGroup::kEcho) return;
-    if (said_.size() == kMostSaid) return;
+    const bool is_echo = line.group == MessageGroup::kPlain || line.group == MessageGroup::kEcho;
+    if (++(is_echo ? echoes_ : others_) > kMostSaid) return;
     Said said{line.group, std::string(line.what.substr(0, kMostBytes))};
     if (line.place.file != language::kNoFile) {
       const auto& [path, text] = file_of(line);
@@ -75,10 +86,17 @@ class SaidCollector {
 
   const Document& document_;
   std::vector<Said>& said_;
+  std::size_t echoes_ = 0, others_ = 0;
   std::map<language::FileId, File> files_;
 };
 
 }  // namespace
+
+std::string own_text(std::string_view text) {
+  constexpr std::string_view kAppended = "\n\x03\n";
+  if (text.ends_with(kAppended)) text.remove_suffix(kAppended.size());
+  return std::string(text);
+}
 
 bool Evaluated::depends_on(const std::string& key) const {
   const std::string name = std::filesystem::path(key).filename();
@@ -89,14 +107,23 @@ bool Evaluated::depends_on(const std::string& key) const {
 }
 
 Evaluated evaluate(const Document& document, const TextOverlay& overlay,
-                   language::LanguageVersion version, const std::stop_token& stop) {
+                   language::LanguageVersion version, const frontend::DesignInputs& inputs,
+                   language::EvaluationCache& cache, const std::stop_token& stop) {
   Evaluated result;
   result.text = document.text;
+  result.version = document.version;
+  if (!document.problem.empty()) {
+    result.said.push_back({language::MessageGroup::kError, document.problem});
+    result.files_read = {document.path};
+    return result;
+  }
   language::EvaluationOptions options;
   options.language = version;
   options.camera = language::CameraChoice::kWindow;
   options.stop = stop;
-  options.cache = document.cache.get();
+  options.parameters = inputs.parameters;
+  options.time = inputs.time.value_or(0);
+  options.cache = &cache;
   options.overlay = &overlay;
   options.text_meter = frontend::make_text_meter();
   options.wants_values = true;
@@ -105,8 +132,11 @@ Evaluated evaluate(const Document& document, const TextOverlay& overlay,
       document.path, options, [&](const language::SaidLine& line) { collector.take(line); },
       document.text->bytes());
   result.values = std::move(evaluation.values);
-  result.files_read = std::move(evaluation.files_read);
-  result.lookups = std::move(evaluation.lookups);
+  result.files_read = evaluation.files_read;
+  result.lookups = evaluation.lookups;
+  if (document.followers > 0) {
+    result.evaluation = std::make_shared<const language::Evaluation>(std::move(evaluation));
+  }
   return result;
 }
 
@@ -123,20 +153,23 @@ Workspace::~Workspace() {
     running_stop_.request_stop();
   }
   thread_.request_stop();
+  thread_.join();
 }
 
 void Workspace::open(const std::string& key, const std::string& path, int64_t version,
                      TextPointer text) {
   const std::lock_guard lock(mutex_);
-  Document document{key, path, version, std::move(text), {}, nullptr};
+  Document document{.key = key, .path = path, .version = version, .text = std::move(text)};
   document.cache = std::make_shared<language::EvaluationCache>();
+  const auto before = documents_.find(key);
+  if (before != documents_.end()) document.followers = before->second->followers;
   put(std::move(document));
 }
 
 void Workspace::change(const std::string& key, int64_t version, TextPointer text) {
   const std::lock_guard lock(mutex_);
   const auto found = documents_.find(key);
-  if (found == documents_.end()) return;
+  if (found == documents_.end() || !found->second->is_open) return;
   Document document = *found->second;
   document.version = version;
   document.text = std::move(text);
@@ -144,7 +177,7 @@ void Workspace::change(const std::string& key, int64_t version, TextPointer text
 }
 
 void Workspace::put(Document document) {
-  set_overlay(document.path, document.text);
+  if (document.is_open) set_overlay(document.path, document.text);
   const std::string key = document.key;
   documents_[key] = std::make_shared<const Document>(std::move(document));
   evaluate_later(key, true);
@@ -154,13 +187,102 @@ void Workspace::put(Document document) {
 void Workspace::close(const std::string& key) {
   const std::lock_guard lock(mutex_);
   const auto found = documents_.find(key);
-  if (found == documents_.end()) return;
+  if (found == documents_.end() || !found->second->is_open) return;
   set_overlay(found->second->path, nullptr);
-  documents_.erase(found);
+  if (found->second->followers > 0) {
+    Document document = *found->second;
+    document.is_open = false;
+    document.version = 1;
+    put(read_again(std::move(document)));
+    return;
+  }
+  forget(found);
+  evaluate_dependents(key);
+}
+
+void Workspace::forget(std::map<std::string, DocumentPointer>::iterator document) {
+  const std::string key = document->first;
+  documents_.erase(document);
   std::erase(waiting_, key);
   if (running_ == key) running_stop_.request_stop();
-  evaluate_dependents(key);
   changed_.notify_all();
+}
+
+void Workspace::follow(const std::string& key, const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  if (!files_) files_.emplace([this] { notice_files(); });
+  const auto found = documents_.find(key);
+  if (found != documents_.end()) {
+    Document document = *found->second;
+    ++document.followers;
+    found->second = std::make_shared<const Document>(std::move(document));
+    if (!found->second->evaluated || !found->second->evaluated->evaluation)
+      evaluate_later(key, true);
+    return;
+  }
+  Document document{.key = key, .path = path, .is_open = false, .followers = 1};
+  document.cache = std::make_shared<language::EvaluationCache>();
+  document = read_again(std::move(document));
+  if (!document.problem.empty()) throw std::runtime_error(document.problem);
+  put(std::move(document));
+}
+
+void Workspace::unfollow(const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  const auto found = documents_.find(key);
+  if (found == documents_.end()) return;
+  Document document = *found->second;
+  if (--document.followers == 0) {
+    if (!document.is_open) return forget(found);
+    if (document.evaluated) {  // what it holds of the design is not needed any more
+      Evaluated evaluated = *document.evaluated;
+      evaluated.evaluation.reset();
+      document.evaluated = std::make_shared<const Evaluated>(std::move(evaluated));
+    }
+  }
+  found->second = std::make_shared<const Document>(std::move(document));
+}
+
+/// Has the followed documents evaluated again. A file that they read has changed.
+void Workspace::notice_files() {
+  std::vector<std::string> keys;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [key, document] : documents_) {
+      if (document->followers == 0) continue;
+      keys.push_back(key);
+      if (!document->is_open)
+        document = std::make_shared<const Document>(read_again(Document(*document)));
+      evaluate_later(key, true);
+    }
+  }
+  for (const std::string& key : keys) listener_(key);
+}
+
+/// Watches what the followed documents have read from files.
+void Workspace::watch_files() {
+  if (!files_) return;
+  std::vector<std::string> paths;
+  for (const auto& [key, document] : documents_) {
+    if (document->followers == 0 || !document->evaluated) continue;
+    for (const auto* list : {&document->evaluated->files_read, &document->evaluated->lookups}) {
+      for (const std::string& path : *list)
+        if (!overlay_->find(path)) paths.push_back(path);
+    }
+  }
+  files_->set(std::move(paths));
+}
+
+void Workspace::stop(const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  std::erase(waiting_, key);
+  if (running_ == key) running_stop_.request_stop();
+  changed_.notify_all();
+}
+
+std::optional<frontend::Activity> Workspace::activity(const std::string& key) const {
+  const std::lock_guard lock(mutex_);
+  return running_ == key ? running_activity_.current() : std::nullopt;
 }
 
 void Workspace::notice_change(const std::string& key) {
@@ -218,13 +340,16 @@ void Workspace::run(const std::stop_token& stop) {
     const auto overlay = overlay_;
     running_stop_ = {};
     const std::stop_token running_stop = running_stop_.get_token();
+    running_activity_.begin("evaluating");
+    if (files_) files_->note_reading();
     lock.unlock();
     std::optional<Evaluated> evaluated;
     try {
-      evaluated = evaluate(*document, *overlay, version_, running_stop);
+      evaluated = evaluate(*document, *overlay, version_, {}, *document->cache, running_stop);
     } catch (const language::Stopped&) {
     } catch (const std::exception& error) {  // there is no memory
       evaluated.emplace().text = document->text;
+      evaluated->version = document->version;
       evaluated->said.push_back({language::MessageGroup::kError, error.what()});
     }
     lock.lock();
@@ -236,6 +361,8 @@ void Workspace::run(const std::stop_token& stop) {
         Document next = *current->second;
         next.evaluated = std::make_shared<const Evaluated>(std::move(*evaluated));
         current->second = std::make_shared<const Document>(std::move(next));
+        watch_files();
+        running_activity_.end();
         lock.unlock();
         listener_(key);
         lock.lock();
@@ -244,6 +371,7 @@ void Workspace::run(const std::stop_token& stop) {
       }
     }
     running_.clear();
+    running_activity_.end();
     changed_.notify_all();
   }
 }

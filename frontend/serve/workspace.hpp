@@ -11,9 +11,13 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
+#include "followed_files.hpp"
+#include "frontend/activity.hpp"
+#include "frontend/design_file_options.hpp"
 #include "language/evaluation.hpp"
 #include "language/evaluation_cache.hpp"
 #include "language/text_overlay.hpp"
@@ -30,10 +34,17 @@ struct Said {
   Span span{};         // of the token at the cause
 };
 
+/// Returns a source file's text without what the evaluator has appended.
+std::string own_text(std::string_view text);
+
 /// What the evaluation of a version of a document has found.
 struct Evaluated {
-  TextPointer text;  // of the document
+  TextPointer text;     // of the document
+  int64_t version = 0;  // of that text
   std::vector<Said> said;
+  /// Null where nobody follows the document, or where the evaluation has failed for other reasons
+  /// than the design.
+  std::shared_ptr<const language::Evaluation> evaluation;
   /// language::Evaluation's.
   std::map<std::string, std::string, std::less<>> values;
   std::vector<std::string> files_read, lookups;
@@ -46,21 +57,27 @@ struct Evaluated {
 struct Document {
   std::string key;   // TextOverlay::key_of its path; of one without a file, a name of its own
   std::string path;  // absolute; "-": it has no file
-  int64_t version = 0;
-  TextPointer text;
-  std::shared_ptr<language::EvaluationCache> cache;  // that all its versions share
-  std::shared_ptr<const Evaluated> evaluated;        // the last; null: there was none
+  int64_t version = 0;  // the editor's; of a file that is not open, counted from 1
+  TextPointer text{};
+  bool is_open = true;    // in the editor; else the text is the file's
+  uint32_t followers = 0;
+  std::string problem{};   // why the file cannot be read; empty: it can
+  std::shared_ptr<language::EvaluationCache> cache{};  // that all its versions share
+  std::shared_ptr<const Evaluated> evaluated{};        // the last; null: there was none
 };
 using DocumentPointer = std::shared_ptr<const Document>;
 
-/// Evaluates a document among texts that are not saved. Throws language::Stopped.
+/// Evaluates a document among texts that are not saved. `cache` is used by nobody else meanwhile.
+/// Throws language::Stopped.
 Evaluated evaluate(const Document& document, const language::TextOverlay& overlay,
-                   language::LanguageVersion version, const std::stop_token& stop);
+                   language::LanguageVersion version, const frontend::DesignInputs& inputs,
+                   language::EvaluationCache& cache, const std::stop_token& stop);
 
 /// All may be called by any thread.
 class Workspace {
  public:
-  /// Called by the evaluation's thread when a document's `evaluated` has changed.
+  /// Called by another thread when a document's `evaluated` has changed, or is about to because a
+  /// file has.
   using Listener = std::function<void(const std::string& key)>;
 
   Workspace(language::LanguageVersion version, Listener listener);
@@ -72,6 +89,16 @@ class Workspace {
   void close(const std::string& key);
   /// Has the documents evaluated again that a file is, or that depend on it.
   void notice_change(const std::string& key);
+  /// Keeps what the document's evaluations make (Evaluated::evaluation), and has it evaluated again
+  /// when a file that it has read changes. One that is not open is read from its file, and goes on
+  /// so when it is closed. Each call needs an unfollow(). Throws std::runtime_error if the file
+  /// cannot be read.
+  void follow(const std::string& key, const std::string& path);
+  void unfollow(const std::string& key);
+  /// Ends a document's evaluation, until something changes.
+  void stop(const std::string& key);
+  /// Returns what is done for a document; nothing if nothing is.
+  std::optional<frontend::Activity> activity(const std::string& key) const;
 
   DocumentPointer find(const std::string& key) const;
   std::vector<DocumentPointer> documents() const;
@@ -83,9 +110,12 @@ class Workspace {
  private:
   void run(const std::stop_token& stop);
   void put(Document document);
+  void forget(std::map<std::string, DocumentPointer>::iterator document);
   void set_overlay(const std::string& path, const TextPointer& text);
   void evaluate_later(const std::string& key, bool is_first);
   void evaluate_dependents(const std::string& key);
+  void notice_files();
+  void watch_files();
   bool is_up_to_date(const Document& document, const Evaluated& evaluated,
                      const language::TextOverlay& overlay) const;
 
@@ -98,7 +128,9 @@ class Workspace {
   std::deque<std::string> waiting_;  // keys, each once
   std::string running_;              // the key that is being evaluated; empty: none
   std::stop_source running_stop_;    // of that
-  std::jthread thread_;              // the last member: it uses the others
+  frontend::ActivityMeter running_activity_;
+  std::jthread thread_;                 // it uses the others, but the next one
+  std::optional<FollowedFiles> files_;  // of the followed documents; none before there is one
 };
 
 }  // namespace serve

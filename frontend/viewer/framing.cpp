@@ -132,4 +132,15 @@ Navigation framed(const Navigation& before, const Box& bounds, const BoxInFrame&
   return Navigation(camera, before.projection());
 }
 
+Navigation view_all(const Navigation& before, const frontend::ImportedDesign& design,
+                    const Box& bounds, const SectionPlane& section, const PicturePart& part) {
+  const auto shown = [&](const csgcore::Scene& scene, const Box& box) {
+    return framed(
+        before, box, [&](const Mat3& to_frame) { return seen_box(scene, box, to_frame); }, part);
+  };
+  if (!section.is_on) return shown(design.scene, bounds);
+  const csgcore::Scene cut = cut_open(design.scene, section, design.view_box);
+  return shown(cut, seen_box(cut));
+}
+
 }  // namespace window

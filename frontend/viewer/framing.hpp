@@ -5,7 +5,9 @@
 
 #include "csgcore/geometry.hpp"
 #include "csgcore/scene.hpp"
+#include "frontend/imported_design.hpp"
 #include "navigation.hpp"
+#include "section_plane.hpp"
 
 namespace window {
 
@@ -31,5 +33,11 @@ using BoxInFrame = std::function<csgcore::Box(const csgcore::Mat3& to_frame)>;
 /// is empty, it is the camera before.
 Navigation framed(const Navigation& before, const csgcore::Box& bounds, const BoxInFrame& box,
                   const PicturePart& part);
+
+/// Does so with all that is seen of a design, or what a section plane leaves of that. `bounds` is
+/// seen_box() of the whole scene.
+Navigation view_all(const Navigation& before, const frontend::ImportedDesign& design,
+                    const csgcore::Box& bounds, const SectionPlane& section,
+                    const PicturePart& part);
 
 }  // namespace window

@@ -100,6 +100,7 @@ void ModelExporter::make(const ModelOrder& order, const std::stop_token& stop,
   reading.inputs = order.inputs;
   reading.camera = language::CameraChoice::kWindow;
   reading.text = order.stream;
+  reading.overlay = order.overlay;
   reading.wants_files = true;
   reading.message = [](const frontend::DesignMessage&) {};  // the window has them
   reading.progress = [&show](const char* stage) { show(stage); };

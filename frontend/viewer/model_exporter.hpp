@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -19,7 +20,8 @@ struct ModelOrder {
   std::string path;           // of the file that is written; its suffix tells the format
   frontend::Options options;  // whose input is the design
   frontend::DesignInputs inputs;
-  std::optional<frontend::FileText> stream;  // DesignVersion::stream
+  std::optional<frontend::FileText> stream;  // DesignVersion::stream, or a text that is not saved
+  std::shared_ptr<const language::TextOverlay> overlay{};  // DesignFileOptions::overlay
 };
 
 struct ModelOutcome {

@@ -66,6 +66,12 @@ bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCel
 
 }  // namespace
 
+bool show_the_same(const PaintOrder& a, const PaintOrder& b) {
+  return a.design == b.design && a.recolored == b.recolored && a.section == b.section &&
+         a.size == b.size && a.overlays == b.overlays &&
+         frontend::draw_the_same(a.settings, b.settings) && a.navigation == b.navigation;
+}
+
 Painter::Painter(double frame_ms, std::function<void()> on_news)
     : frame_ms_(frame_ms), on_news_(std::move(on_news)), thread_([this] { run(); }) {}
 
@@ -248,9 +254,13 @@ bool Painter::paint(PaintOrder order, Step step, const Stops& stops) {
 }
 
 void Painter::load(const PaintOrder& order) {
-  if (loaded_ == order.design && loaded_section_ == order.section) return;
+  if (loaded_ == order.design && loaded_section_ == order.section &&
+      loaded_colors_ == order.recolored) {
+    return;
+  }
   loaded_.reset();
-  ScenePointer scene(order.design, &order.design->scene);
+  ScenePointer scene = order.recolored ? order.recolored
+                                       : ScenePointer(order.design, &order.design->scene);
   if (order.section.is_on) {
     scene = std::make_shared<const csgcore::Scene>(
         cut_open(*scene, order.section, order.design->view_box));
@@ -259,6 +269,7 @@ void Painter::load(const PaintOrder& order) {
   scene_ = std::move(scene);
   loaded_ = order.design;
   loaded_section_ = order.section;
+  loaded_colors_ = order.recolored;
 }
 
 Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderSettings settings,
@@ -335,6 +346,7 @@ void Painter::describe(const RayHit& hit, Finding& finding) const {
     if (!around) return;
     primitive = *around;
   }
+  finding.primitive = primitive;
   finding.place = frontend::leaf_place(finding.probe.tree,
                                        design.places.at(design.scene.primitives[primitive].id));
 }

@@ -31,6 +31,8 @@ namespace window {
 struct PaintOrder {
   uint64_t number = 0;
   std::shared_ptr<const frontend::ImportedDesign> design;
+  /// The design's scene in other colours; null: in its own.
+  std::shared_ptr<const csgcore::Scene> recolored{};
   SectionPlane section;
   Navigation navigation{{}, csgcore::Projection::kPerspective};
   Size size;
@@ -40,6 +42,9 @@ struct PaintOrder {
   /// follows.
   bool is_moving = false;
 };
+
+/// Returns whether both give the same picture.
+bool show_the_same(const PaintOrder& a, const PaintOrder& b);
 
 /// The steps to a picture in the studio's light: its colours alone, then what hides light, by one
 /// ray a pixel and few directions, then all that is asked for.
@@ -72,6 +77,8 @@ struct Finding {
   csgcore::Vec3 position{0.0};  // world space
   csgcore::Vec3 normal{0.0};    // unit, outward
   bool is_cut = false;          // the section plane shows the inside of the leaf there
+  /// That the leaf has there, by its index in the design; nothing on a cut through nothing.
+  std::optional<uint32_t> primitive{};
   frontend::LeafPlace place;
   Surface surface;
 };
@@ -143,6 +150,7 @@ class Painter {
   frontend::SceneRenderer renderer_;
   std::shared_ptr<const frontend::ImportedDesign> loaded_;
   SectionPlane loaded_section_;
+  std::shared_ptr<const csgcore::Scene> loaded_colors_;  // PaintOrder::recolored
   ScenePointer scene_;       // the loaded design's, cut by the section plane
   double ms_per_pixel_ = 0;  // of the last picture of which most was traced; 0: unknown
   /// The last picture that was drawn in its whole size.

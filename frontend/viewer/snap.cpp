@@ -279,6 +279,7 @@ class FeatureSearch {
     const double place = glm::dot(nearest - edge.point, direction);
     nearest = edge.point + std::clamp(place, -before, after) * direction;
     edge.surface.length = after + before;
+    edge.surface.ends = {edge.point + after * direction, edge.point - before * direction};
     edge.surface.origin = nearest;
     offer(on_edge_, nearest, edge);
     Edge end = edge;

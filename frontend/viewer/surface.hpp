@@ -31,6 +31,7 @@ struct Surface {
   /// is; 0: it is no round end.
   double radius = 0;
   double length = 0;  // of a straight edge
+  std::array<csgcore::Vec3, 2> ends{csgcore::Vec3(0.0), csgcore::Vec3(0.0)};  // of the same
 };
 
 /// Returns what the surface is at a point of it, where the outward unit normal of the solid, or of

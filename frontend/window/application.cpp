@@ -86,12 +86,6 @@ void print_echoes(const frontend::DesignVersion& version) {
   std::fflush(stdout);
 }
 
-bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
-  return a.design == b.design && a.section == b.section && a.size == b.size &&
-         a.overlays == b.overlays && frontend::draw_the_same(a.settings, b.settings) &&
-         a.navigation == b.navigation;
-}
-
 }  // namespace
 
 Application::Application(const frontend::Options& options)
@@ -480,7 +474,7 @@ void Application::order_picture() {
   if (!order.design || order.size.width_px == 0) return;
   order.settings.measured_channels = save_path_.ends_with(".exr");
   const bool is_to_be_saved = !save_path_.empty() && saving_ == 0;
-  if (shows_the_same(order, ordered_) && !is_to_be_saved) return;
+  if (show_the_same(order, ordered_) && !is_to_be_saved) return;
   order.number = ordered_.number + 1;
   if (!save_path_.empty()) saving_ = order.number;
   ordered_ = order;

@@ -184,18 +184,7 @@ csgcore::Box State::bounds() const {
 }
 
 void State::view_all() {
-  if (!design) return;
-  csgcore::Box box = bounds();
-  const csgcore::Scene* scene = &design->scene;
-  csgcore::Scene cut;
-  if (section.is_on) {
-    cut = cut_open(*scene, section, design->view_box);
-    scene = &cut;
-    box = seen_box(cut);
-  }
-  navigation = framed(
-      navigation, box,
-      [&](const csgcore::Mat3& to_frame) { return seen_box(*scene, box, to_frame); }, free_part);
+  if (design) navigation = window::view_all(navigation, *design, bounds(), section, free_part);
 }
 
 void State::set_section_axis(uint8_t axis) {

@@ -56,6 +56,8 @@ struct DesignFileOptions {
   language::ViewCamera view{};  // of the command line
   /// What text_in_memory() has given of the design before; nothing: it is asked.
   std::optional<FileText> text{};
+  /// Texts that the own evaluator reads in place of included and used files; null: none.
+  std::shared_ptr<const language::TextOverlay> overlay{};
   /// What the own evaluator keeps between readings of the design; null: nothing.
   std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;

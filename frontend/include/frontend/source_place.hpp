@@ -33,6 +33,7 @@ std::string text_of(const SourcePlace& place);
 struct TrailStep {
   std::string what;  // the node in few words, or the call as the design spells it
   SourcePlace place;
+  language::Place at{};  // the same in DesignTree::files
 };
 
 /// The way to a leaf, from the inside out: what it is made of, if that is one primitive; the calls

@@ -139,6 +139,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   known->is_preview = options.import.picture != PictureKind::kRendered;
   known->stop = stop;
   known->cache = options.cache.get();
+  known->overlay = options.overlay.get();
   OpenScadMessages messages(options.message, OpenScadMessages::AfterError::kHolds);
   language::Evaluation evaluation;
   try {

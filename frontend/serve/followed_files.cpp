@@ -1,0 +1,118 @@
+#include "followed_files.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "base/descriptor.hpp"
+#include "follow/file_watch.hpp"
+
+namespace serve {
+namespace {
+
+using frontend::FileWatch;
+using Clock = FileWatch::Clock;
+
+/// How often files are looked at that the system cannot watch.
+constexpr std::chrono::milliseconds kPollInterval{250};
+
+int64_t now_ns() {
+  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+class FollowedFiles::Watch {
+ public:
+  explicit Watch(std::function<void()> on_change)
+      : on_change_(std::move(on_change)),
+        thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+  ~Watch() {
+    thread_.request_stop();
+    wake_.raise();
+    thread_.join();
+  }
+
+  void set(std::vector<std::string> paths) {
+    std::sort(paths.begin(), paths.end());
+    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+    {
+      const std::lock_guard lock(mutex_);
+      paths_ = std::move(paths);
+    }
+    wake_.raise();
+  }
+
+  void note_reading() {
+    const std::lock_guard lock(mutex_);
+    reading_since_ns_ = now_ns();
+  }
+
+ private:
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      wait();
+      take_paths();
+      watch_.update();
+      const auto settled = watch_.settled_at();
+      if (!settled || Clock::now() < *settled || stop.stop_requested()) continue;
+      watch_.forget_changes();
+      on_change_();
+    }
+  }
+
+  void take_paths() {
+    std::optional<std::vector<std::string>> paths;
+    int64_t since_ns = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      paths = std::exchange(paths_, std::nullopt);
+      since_ns = reading_since_ns_;
+    }
+    if (paths) watch_.set_files(*paths, since_ns);
+  }
+
+  /// Waits until there may be something to do.
+  void wait() {
+    std::optional<Clock::time_point> until = watch_.next_look();
+    if (const auto settled = watch_.settled_at())
+      until = until ? std::min(*until, *settled) : settled;
+    timespec timeout{};
+    if (until) {
+      const auto rest = std::max(*until - Clock::now(), Clock::duration::zero());
+      const auto seconds = std::chrono::floor<std::chrono::seconds>(rest);
+      timeout.tv_sec = seconds.count();
+      timeout.tv_nsec = std::chrono::nanoseconds(rest - seconds).count();
+    }
+    std::array<pollfd, 2> waits = {pollfd{wake_.descriptor(), POLLIN, 0},
+                                   pollfd{watch_.descriptor(), POLLIN, 0}};
+    ppoll(waits.data(), waits.size(), until ? &timeout : nullptr, nullptr);
+    wake_.clear();
+  }
+
+  const std::function<void()> on_change_;
+  frontend::Event wake_;
+  std::mutex mutex_;  // of the following
+  std::optional<std::vector<std::string>> paths_;  // that are to be watched from now on
+  int64_t reading_since_ns_ = 0;
+  FileWatch watch_{false, kPollInterval};  // used by the thread alone
+  std::jthread thread_;                    // the last member: it uses the others
+};
+
+FollowedFiles::FollowedFiles(std::function<void()> on_change)
+    : watch_(std::make_unique<Watch>(std::move(on_change))) {}
+FollowedFiles::~FollowedFiles() = default;
+
+void FollowedFiles::set(std::vector<std::string> paths) { watch_->set(std::move(paths)); }
+void FollowedFiles::note_reading() { watch_->note_reading(); }
+
+}  // namespace serve
