@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "frontend/run_program.hpp"
+#include "http_server.hpp"
 #include "options.hpp"
 #include "rpc.hpp"
 #include "server.hpp"
@@ -71,6 +72,22 @@ ExitCode serve_editor(const Options& options) {
   return has_shut_down ? ExitCode::kDone : ExitCode::kFailure;
 }
 
+ExitCode serve_browsers(const Options& options) {
+  std::signal(SIGPIPE, SIG_IGN);
+  HttpServer server({options.design, options.language, options.bind, options.port, options.origin},
+                    PanelFiles(options.panel.empty() ? panel_folder() : options.panel));
+  std::printf("%s\n", server.address().c_str());
+  std::fflush(stdout);
+  if (!server.is_loopback()) {
+    std::fputs(
+        "scadray serve: warning: whoever is on the way can read the pictures and the token (put TLS "
+        "in front, and give its address by --origin)\n",
+        stderr);
+  }
+  server.run(true);
+  return ExitCode::kDone;
+}
+
 ExitCode run(const std::vector<std::string>& arguments) {
   const Options options = parse_options(arguments);
   switch (options.action) {
@@ -80,6 +97,8 @@ ExitCode run(const std::vector<std::string>& arguments) {
     case Action::kVersion:
       std::printf("scadray-serve version %s\n", SCADRAY_VERSION);
       return ExitCode::kDone;
+    case Action::kServeBrowsers:
+      return serve_browsers(options);
     case Action::kServe:
       break;
   }

@@ -11,11 +11,17 @@
 
 namespace serve {
 
-enum class Action : uint8_t { kServe, kHelp, kVersion };
+enum class Action : uint8_t { kServe, kServeBrowsers, kHelp, kVersion };
 
 struct Options {
   Action action = Action::kServe;
   language::LanguageVersion language{};
+  // kServeBrowsers:
+  std::string design;
+  uint16_t port = 0;  // 0: any
+  std::string bind = "127.0.0.1";
+  std::string origin;  // empty: that of `bind`
+  std::string panel;   // a folder; empty: that beside the program
 };
 
 /// Parses the arguments (without the program's name). Throws frontend::Error for any that is wrong.

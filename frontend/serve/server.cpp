@@ -38,13 +38,7 @@ Server::Server(language::LanguageVersion version, Send send, SendFrame send_fram
       post_(std::move(post)),
       shows_one_design_(!only_design.empty()),
       state_(shows_one_design_ ? State::kInitialized : State::kNew),
-      workspace_(version,
-                 [this](const std::string& key) {
-                   post_([this, key] {
-                     previews_.notice_document(key);
-                     publish();
-                   });
-                 }),
+      workspace_(version, [this](const std::string& key) { notice_document(key); }),
       sources_(workspace_),
       previews_(workspace_,
                 {send_, std::move(send_frame), post_,
@@ -310,6 +304,24 @@ void Server::add_diagnostics(const Document& document, std::map<std::string, Jso
     Json& list = all[uri];
     if (std::ranges::find(list, json) == list.end()) list.push_back(std::move(json));
   }
+}
+
+/// Has the server's thread tell what there is of a document; called by the workspace.
+void Server::notice_document(const std::string& key) {
+  {
+    const std::lock_guard lock(mutex_);
+    changed_.insert(key);
+    if (changed_.size() > 1) return;  // that is posted already
+  }
+  post_([this] {
+    std::set<std::string> keys;
+    {
+      const std::lock_guard lock(mutex_);
+      keys = std::exchange(changed_, {});
+    }
+    for (const std::string& changed : keys) previews_.notice_document(changed);
+    publish();
+  });
 }
 
 /// Sends the diagnostics that have changed.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 
@@ -81,6 +82,7 @@ class Server {
   }
   Json locations_of(const std::vector<PlaceInSource>& places) const;
   std::string uri_of(const std::string& key, const std::string& path) const;
+  void notice_document(const std::string& key);
   void publish();
   void add_diagnostics(const Document& document, std::map<std::string, Json>& all) const;
   std::set<std::string> included_documents();
@@ -97,6 +99,8 @@ class Server {
   std::map<std::string, std::string> uris_;  // of the open documents, by key
   std::map<std::string, Json> published_;    // by URI: what the client shows
   std::map<std::string, int64_t> told_;      // by URI: of which version
+  std::mutex mutex_;
+  std::set<std::string> changed_;  // documents, by key, of which work has been posted; with mutex_
   Workspace workspace_;
   Sources sources_;
   Previews previews_;
