@@ -82,7 +82,11 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 
   /// Answers the request for a WebSocket.
   void start(const http::request<http::empty_body>& request) {
-    beast::get_lowest_layer(socket_).expires_never();  // the next lines have times of their own
+    beast::tcp_stream& stream = beast::get_lowest_layer(socket_);
+    stream.expires_never();  // the WebSocket has times of its own
+    beast::error_code ignored;
+    stream.socket().set_option(tcp::no_delay(true), ignored);
+    socket_.auto_fragment(false);
     socket_.set_option(websocket::stream_base::timeout{kPatience, kIdle, true});
     socket_.read_message_max(kMostMessage);
     thread_ = std::thread([self = shared_from_this()] { self->serve_client(); });

@@ -161,7 +161,8 @@ void Previews::pick(uint64_t, Open& open, const Json& params, const Reply& reply
 std::string Previews::output_path(const Open& open, const Json& params) const {
   const std::string design = path_of_uri(open.uri);
   fs::path path = text_of(params, "path");
-  if (path.empty()) throw invalid("\"path\" is empty");
+  if (path.empty() || path.native().find('\0') != std::string::npos)
+    throw invalid("\"path\" names no file");
   if (path.is_relative()) {
     if (design == "-") throw invalid("\"path\" is not absolute, and the document has no file");
     path = fs::path(design).parent_path() / path;

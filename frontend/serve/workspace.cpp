@@ -282,7 +282,9 @@ void Workspace::stop(const std::string& key) {
 
 std::optional<frontend::Activity> Workspace::activity(const std::string& key) const {
   const std::lock_guard lock(mutex_);
-  return running_ == key ? running_activity_.current() : std::nullopt;
+  if (running_ == key) return running_activity_.current();
+  if (std::ranges::find(waiting_, key) == waiting_.end()) return std::nullopt;
+  return frontend::Activity{"waiting", -1, std::chrono::steady_clock::now()};
 }
 
 void Workspace::notice_change(const std::string& key) {

@@ -97,7 +97,7 @@ class Workspace {
   void unfollow(const std::string& key);
   /// Ends a document's evaluation, until something changes.
   void stop(const std::string& key);
-  /// Returns what is done for a document; nothing if nothing is.
+  /// Returns what is done for a document, or about to be; nothing if nothing is.
   std::optional<frontend::Activity> activity(const std::string& key) const;
 
   DocumentPointer find(const std::string& key) const;

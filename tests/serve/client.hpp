@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -41,9 +44,13 @@ class Client {
                   Json capabilities = Json::object(), const std::string& folder = "")
       : server_(
             version, [this](const Json& message) { take(message); },
+            [this](Json message, const frontend::Bytes& image) {
+              frames.push_back({std::move(message["params"]), image});
+            },
             [this](std::function<void()> work) {
               const std::lock_guard lock(mutex_);
               posted_.push_back(std::move(work));
+              has_posted_.notify_all();
             }) {
     Json params = {{"capabilities", std::move(capabilities)}};
     if (!folder.empty()) params["rootUri"] = uri_of_path(folder);
@@ -51,11 +58,25 @@ class Client {
     notify("initialized", Json::object());
   }
 
-  /// Returns the result; of a request that fails, its error.
+  /// Returns the result; of a request that fails, its error. Some are answered later.
   Json request(const std::string& method, const Json& params) {
     server_.handle({{"jsonrpc", "2.0"}, {"id", ++id_}, {"method", method}, {"params", params}});
+    run_until([this] { return answer_["id"] == id_; });
     EXPECT_EQ(answer_["id"], id_) << method;
     return answer_.contains("error") ? answer_["error"] : answer_["result"];
+  }
+  /// Does what is posted until something holds. Returns whether it does.
+  bool run_until(const std::function<bool()>& is_done) {
+    while (!is_done()) {
+      std::unique_lock lock(mutex_);
+      constexpr std::chrono::seconds kLong{60};
+      if (!has_posted_.wait_for(lock, kLong, [this] { return !posted_.empty(); })) return false;
+      const std::function<void()> work = std::move(posted_.front());
+      posted_.pop_front();
+      lock.unlock();
+      work();
+    }
+    return true;
   }
   void notify(const std::string& method, const Json& params) {
     server_.handle({{"jsonrpc", "2.0"}, {"method", method}, {"params", params}});
@@ -120,6 +141,11 @@ class Client {
   Json initialized;
   std::map<std::string, Json> diagnostics;  // by URI
   std::vector<Json> sent;                   // all else that was no answer
+  struct Frame {
+    Json params;
+    frontend::Bytes image;
+  };
+  std::vector<Frame> frames;
 
  private:
   void take(const Json& message) {
@@ -132,6 +158,7 @@ class Client {
   }
 
   std::mutex mutex_;
+  std::condition_variable has_posted_;
   std::deque<std::function<void()>> posted_;
   int id_ = 0;
   Json answer_;

@@ -114,6 +114,7 @@ TEST(MutatedMessages, AreAnsweredOrLogged) {
   std::deque<std::function<void()>> posted;
   Server server(
       language::LanguageVersion::k2021, [&](const Json& message) { sent.push_back(message); },
+      [](const Json&, const frontend::Bytes&) {},
       [&](std::function<void()> work) {
         const std::lock_guard lock(mutex);
         posted.push_back(std::move(work));

@@ -20,7 +20,7 @@ TEST(Session, BeginsWithInitialize) {
   std::vector<Json> sent;
   Server server(
       language::LanguageVersion::k2021, [&](const Json& message) { sent.push_back(message); },
-      [](const std::function<void()>&) {});
+      [](const Json&, const frontend::Bytes&) {}, [](const std::function<void()>&) {});
   const auto ask = [&](int id, const char* method) {
     server.handle({{"jsonrpc", "2.0"}, {"id", id}, {"method", method}});
     return sent.back();
@@ -45,7 +45,7 @@ TEST(Session, ACancelledRequestIsNotAnswered) {
   std::vector<Json> sent;
   Server server(
       language::LanguageVersion::k2021, [&](const Json& message) { sent.push_back(message); },
-      [](const std::function<void()>&) {});
+      [](const Json&, const frontend::Bytes&) {}, [](const std::function<void()>&) {});
   server.handle({{"jsonrpc", "2.0"}, {"id", 1}, {"method", "initialize"}}, true);
   EXPECT_EQ(sent.back()["error"]["code"], -32800);
 }
@@ -54,7 +54,7 @@ TEST(Session, AnIdMayBeAString) {
   std::vector<Json> sent;
   Server server(
       language::LanguageVersion::k2021, [&](const Json& message) { sent.push_back(message); },
-      [](const std::function<void()>&) {});
+      [](const Json&, const frontend::Bytes&) {}, [](const std::function<void()>&) {});
   server.handle({{"jsonrpc", "2.0"}, {"id", "ä"}, {"method", "initialize"}});
   EXPECT_EQ(sent.back()["id"], "ä");
   server.handle({{"jsonrpc", "2.0"}, {"id", "b"}, {"method", 7}});
