@@ -242,6 +242,16 @@ window::Navigation Preview::view_all(const window::Navigation& from,
   return window::view_all(from, *reading_->design, reading_->bounds, look_.section, part);
 }
 
+std::optional<std::string> Preview::source(const std::string& key) const {
+  if (key == key_) {
+    const DocumentPointer document = workspace_.find(key);
+    return document ? std::optional(document->text->bytes()) : std::nullopt;
+  }
+  if (!reading_ || !reading_->evaluation) return std::nullopt;
+  const auto file = file_of(*reading_->evaluation->files, key);
+  return file ? std::optional(own_text((*reading_->evaluation->files)[*file].text)) : std::nullopt;
+}
+
 void Preview::light_cursor() {
   recolored_.reset();
   if (!cursor_ || !reading_ || !reading_->design) return;
@@ -531,12 +541,16 @@ void Preview::send_frames(const std::stop_token& stop) {
     }
     const auto work = activity();
     lock.lock();
-    const bool is_long = work && Clock::now() - work->since >= kLongWork;
-    if (is_long) progress_ = Progress{work->stage, frontend::ms_since(work->since)};
-    if (is_told && !is_long) progress_ = Progress{};
-    const bool is_due = reading_since_ && turn_.due(reading_since_).value_or(Clock::now() + kLongWork) <= Clock::now();
-    if (is_due) reading_stop_.request_stop();
-    bool has_news = is_long || std::exchange(is_told, is_long) || !problem_.empty();
+    const Clock::time_point now = Clock::now();
+    const bool is_long = work && now - work->since >= kLongWork;
+    const bool was_told = std::exchange(is_told, is_long);
+    if (is_long)
+      progress_ = Progress{work->stage, frontend::ms_since(work->since)};
+    else if (was_told)
+      progress_ = Progress{};
+    const auto due = turn_.due(reading_since_);
+    if (reading_since_ && due && now >= *due) reading_stop_.request_stop();
+    bool has_news = is_long || was_told || !problem_.empty();
     if (waiting && !is_frame_under_way_) {
       is_frame_under_way_ = true;
       lock.unlock();

@@ -136,6 +136,8 @@ class Preview {
   /// Of the newest version; null: there is none yet.
   const std::shared_ptr<const DesignReading>& reading() const { return reading_; }
   window::Navigation navigation() const;
+  /// Returns the text of a document that the design reads, by its key; nothing of any other.
+  std::optional<std::string> source(const std::string& key) const;
 
  private:
   struct Job {

@@ -48,6 +48,7 @@ const std::map<std::string, Previews::Request, std::less<>>& Previews::requests(
       {"scadray/savePicture", &Previews::save_picture},
       {"scadray/exportModel", &Previews::export_model},
       {"scadray/parameterSet", &Previews::use_set},
+      {"scadray/source", &Previews::tell_source},
   };
   return kRequests;
 }
@@ -198,6 +199,11 @@ void Previews::export_model(uint64_t, Open& open, const Json& params, const Repl
   if (open.preview->export_model(request, path)) return;
   open.waiting.erase(request);
   throw failed("another export is under way");
+}
+
+void Previews::tell_source(uint64_t, Open& open, const Json& params, const Reply& reply) {
+  const auto text = open.preview->source(key_of(text_of(params, "uri")));
+  reply.give(text ? Json{{"text", *text}} : Json());
 }
 
 void Previews::use_set(uint64_t number, Open& open, const Json& params, const Reply& reply) {

@@ -65,6 +65,7 @@ class Previews {
   void pick(uint64_t number, Open& open, const Json& params, const Reply& reply);
   void save_picture(uint64_t number, Open& open, const Json& params, const Reply& reply);
   void export_model(uint64_t number, Open& open, const Json& params, const Reply& reply);
+  void tell_source(uint64_t number, Open& open, const Json& params, const Reply& reply);
   void use_set(uint64_t number, Open& open, const Json& params, const Reply& reply);
 
   void look(Open& open, const Json& params);

@@ -78,7 +78,7 @@ class PreviewClient {
       return std::find_if(client.sent.begin(), client.sent.end(),
                           [](const Json& sent) { return sent["method"] == "scadray/progress"; });
     };
-    client.run_until([&] { return find() != client.sent.end(); });
+    if (!client.run_until([&] { return find() != client.sent.end(); })) return {{"stage", ""}};
     Json result = (*find())["params"];
     client.sent.erase(find());
     return result;
@@ -95,6 +95,10 @@ const Json kTop = {{"rotation", {0, 0, 0}},
                    {"translation", {5, 5, 0}},
                    {"distance", 60},
                    {"projection", "ortho"}};
+
+/// Takes hours to evaluate, and no memory.
+constexpr const char* kEndless =
+    "x = [for (i = [0 : 9999]) for (j = [0 : 9999]) for (k = [0 : 9999]) if (i + j < 0) k];\n";
 
 /// Returns the final picture of a text as a new server draws it.
 frontend::Bytes fresh_picture(const std::string& text, const Json& look = {{"camera", kTop}}) {
@@ -389,6 +393,22 @@ TEST(Preview, LightsWhatAnotherFileMakes) {
             fresh_picture(dimmed("cube(5);") + "translate([8, 0, 0]) sphere(3);"));
 }
 
+TEST(Preview, TellsTheTextsThatItsDesignReads) {
+  PreviewClient client("include <b.scad>\ncube(size);");
+  const std::string other = client.folder.write("b.scad", "size = 5;\n");
+  const std::string secret = client.folder.write("c.scad", "secret = 5;\n");
+  client.change("include <b.scad>\ncube(size + 1);");
+  client.final_frame();
+  const auto source = [&](const std::string& path) {
+    return client.request("source", {{"uri", uri_of_path(path)}});
+  };
+  EXPECT_EQ(source(client.path)["text"], "include <b.scad>\ncube(size + 1);");
+  EXPECT_EQ(source(other)["text"], "size = 5;\n");
+  EXPECT_EQ(source(secret), nullptr);
+  EXPECT_EQ(source("/etc/passwd"), nullptr);
+  EXPECT_EQ(client.request("source")["code"], -32602);
+}
+
 TEST(Preview, LightsAHullByItsParts) {
   const std::string hull = "hull() { sphere(2); cube(4); }";
   PreviewClient client("translate([9, 9, 0]) cube(2);\n" + hull, {{"camera", kTop}});
@@ -476,7 +496,7 @@ TEST(Preview, ShowsATime) {
 TEST(Preview, TellsOfLongWorkAndStopsIt) {
   PreviewClient client("cube(5);", {{"camera", kTop}});
   const frontend::Bytes before = client.final_frame().image;
-  client.change("x = [for (i = [0 : 1e9]) sin(i)]; cube(6);");
+  client.change(kEndless + std::string("cube(6);"));
   const Json progress = client.progress();
   EXPECT_EQ(progress["stage"], "evaluating");
   EXPECT_GE(progress["ms"], 1000);
@@ -559,7 +579,7 @@ TEST(Preview, GivesItsThreadsBackWhenItIsClosed) {
 }
 
 TEST(Preview, CloseEndsWhatWaits) {
-  PreviewClient client("x = [for (i = [0 : 1e9]) sin(i)]; cube(6);");
+  PreviewClient client(kEndless + std::string("cube(6);"));
   EXPECT_EQ(client.request("savePicture", {{"path", "a.png"}})["code"], -32803);
   EXPECT_EQ(client.request("pick", {{"camera", kTop}, {"x", 1}, {"y", 1}}), nullptr);
   EXPECT_EQ(client.request("closePreview"), nullptr);
