@@ -80,7 +80,8 @@ ExitCode serve_browsers(const Options& options) {
   std::fflush(stdout);
   if (!server.is_loopback()) {
     std::fputs(
-        "scadray serve: warning: whoever is on the way can read the pictures and the token (put TLS "
+        "scadray serve: warning: whoever is on the way can read the pictures and the token (put "
+        "TLS "
         "in front, and give its address by --origin)\n",
         stderr);
   }

@@ -101,7 +101,7 @@ class FollowedFiles::Watch {
 
   const std::function<void()> on_change_;
   frontend::Event wake_;
-  std::mutex mutex_;  // of the following
+  std::mutex mutex_;                               // of the following
   std::optional<std::vector<std::string>> paths_;  // that are to be watched from now on
   int64_t reading_since_ns_ = 0;
   FileWatch watch_{false, kPollInterval};  // used by the thread alone

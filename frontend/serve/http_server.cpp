@@ -1,7 +1,5 @@
 #include "http_server.hpp"
 
-#include <utility>  // which Boost 1.74 uses without including it
-
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -16,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
@@ -176,7 +175,10 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
   void serve_client() {
     {
       Server server(
-          options_.language, [this](const Json& message) { send({text_of_json(message), false}); },
+          options_.language,
+          [this](const Json& message) {
+            send({text_of_json(message), false});
+          },
           [this](const Json& message, const frontend::Bytes& image) {
             send({frame_message(message, image), true});
           },
@@ -293,8 +295,7 @@ class HttpServer::Impl {
         return answer(server_.plain(http::status::request_header_fields_too_large, false));
       if (error) return answer(server_.plain(http::status::bad_request, false));
       const auto& request = parser_->get();
-      const HttpTarget target =
-          http_target({request.target().data(), request.target().size()});
+      const HttpTarget target = http_target({request.target().data(), request.target().size()});
       if (const auto refusal = server_.refusal(request, target))
         return answer(server_.plain(*refusal, request.keep_alive()));
       if (target.path == "/socket") {
@@ -383,8 +384,7 @@ class HttpServer::Impl {
     if (!origin_->accepts(view(request[http::field::host]), origin)) return http::status::forbidden;
     const bool is_public = target.path.starts_with(kPanel);
     if (!is_public && !are_same_secrets(target.token, token_)) return http::status::forbidden;
-    if (request.method() != http::verb::get)
-      return http::status::method_not_allowed;
+    if (request.method() != http::verb::get) return http::status::method_not_allowed;
     if (target.path != "/socket") return std::nullopt;
     if (!websocket::is_upgrade(request)) return http::status::upgrade_required;
     if (clients_.size() >= kMostClients) return http::status::service_unavailable;

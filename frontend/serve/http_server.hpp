@@ -13,11 +13,11 @@
 namespace serve {
 
 struct HttpOptions {
-  std::string design;  // its path
+  std::string design{};  // its path
   language::LanguageVersion language{};
   std::string bind = "127.0.0.1";  // a numeric address
   uint16_t port = 0;               // 0: any that is free
-  std::string origin;              // HttpOrigin's `seen`
+  std::string origin{};            // HttpOrigin's `seen`
 };
 
 /// Clients at a time; more are answered 503.

@@ -78,12 +78,13 @@ Options parse_options(const std::vector<std::string>& words) {
 
 std::string help_text() {
   std::ostringstream text;
-  text << "Usage: scadray serve [options]\n"
-          "       scadray serve --http[=PORT] [options] DESIGN\n"
-          "A language server for OpenSCAD's language, with previews: editors start it, and speak\n"
-          "the Language Server Protocol with it on standard input and output. With --http it shows\n"
-          "the design in any browser.\n"
-       << option_table();
+  text
+      << "Usage: scadray serve [options]\n"
+         "       scadray serve --http[=PORT] [options] DESIGN\n"
+         "A language server for OpenSCAD's language, with previews: editors start it, and speak\n"
+         "the Language Server Protocol with it on standard input and output. With --http it shows\n"
+         "the design in any browser.\n"
+      << option_table();
   return text.str();
 }
 

@@ -226,8 +226,7 @@ window::Navigation Preview::navigation() const {
 void Preview::choose_camera() {
   if (own_navigation_ || look_.navigation || reading_->bounds.empty()) return;
   const frontend::CameraOptions options = frontend::with_camera_of(reading_->camera, {});
-  window::Navigation chosen(frontend::choose_camera(options, reading_->bounds),
-                            options.projection);
+  window::Navigation chosen(frontend::choose_camera(options, reading_->bounds), options.projection);
   if (!options.camera) {
     window::PicturePart whole;
     whole.aspect = static_cast<double>(look_.size.width_px) / look_.size.height_px;
@@ -419,9 +418,8 @@ std::shared_ptr<const DesignReading> Preview::read(const Job& job, const DesignR
   std::shared_ptr<const Evaluated> evaluated = job.document->evaluated;
   if (!are_defaults(job.inputs)) {
     reading_activity_.update("evaluating");
-    evaluated = std::make_shared<const Evaluated>(
-        evaluate(*job.document, *job.overlay, workspace_.language_version(), job.inputs, cache_,
-                 stop));
+    evaluated = std::make_shared<const Evaluated>(evaluate(
+        *job.document, *job.overlay, workspace_.language_version(), job.inputs, cache_, stop));
   }
   auto reading = std::make_shared<DesignReading>();
   reading->version = evaluated->version;

@@ -99,8 +99,7 @@ struct PreviewNews {
 class Preview {
  public:
   /// `on_news` is called by other threads when there may be news; it must not block.
-  Preview(Workspace& workspace, DocumentPointer document, Look look,
-          std::function<void()> on_news);
+  Preview(Workspace& workspace, DocumentPointer document, Look look, std::function<void()> on_news);
   ~Preview();
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
@@ -180,7 +179,7 @@ class Preview {
   std::optional<window::Navigation> own_navigation_;  // where the look has none
   std::optional<Cursor> cursor_;
   window::Customizer customizer_;
-  frontend::DesignInputs inputs_;  // that were asked for last
+  frontend::DesignInputs inputs_;               // that were asked for last
   std::shared_ptr<const Evaluated> evaluated_;  // that was taken last
   std::shared_ptr<const DesignReading> reading_;
   std::shared_ptr<const csgcore::Scene> recolored_;  // for the cursor; null: it lights nothing
@@ -195,10 +194,10 @@ class Preview {
   frontend::InputTurn turn_;
   std::optional<std::chrono::steady_clock::time_point> reading_since_;  // while it reads
   std::shared_ptr<const DesignReading> read_;                           // that was not taken
-  bool is_woken_ = false;  // the sending thread is to look around
-  std::string problem_;    // why there is no picture; that was not taken
-  std::optional<PreviewFrame> frame_;    // that was not taken
-  uint64_t frames_ = 0;           // the number of the last
+  bool is_woken_ = false;              // the sending thread is to look around
+  std::string problem_;                // why there is no picture; that was not taken
+  std::optional<PreviewFrame> frame_;  // that was not taken
+  uint64_t frames_ = 0;                // the number of the last
   bool is_frame_under_way_ = false;
   std::vector<std::pair<uint64_t, int64_t>> versions_;  // of orders from a number on, ascending
   std::vector<Saving> savings_;

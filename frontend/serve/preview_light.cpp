@@ -24,8 +24,8 @@ std::vector<bool> nodes_of(const language::NodeTree& tree, language::FileId file
   uint32_t within = 0;                            // the end of the last of them
   for (uint32_t i = 0; i < tree.size(); ++i) {
     const language::Place place = tree.nodes[i].place;
-    const bool is_own = place.file == file && statement.begin <= place.offset &&
-                        place.offset < statement.end;
+    const bool is_own =
+        place.file == file && statement.begin <= place.offset && place.offset < statement.end;
     before[i + 1] = before[i] + (is_own ? 1 : 0);
     if (is_own) within = std::max(within, tree.nodes[i].end);
     lit[i] = i < within;

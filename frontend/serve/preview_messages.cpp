@@ -170,9 +170,8 @@ const char* name_of(MessageGroup group) {
 }
 
 Json message_of(const Said& said, const PlaceForms& places) {
-  Json json = {{"severity", severity_of(said.group)},
-               {"group", name_of(said.group)},
-               {"text", said.what}};
+  Json json = {
+      {"severity", severity_of(said.group)}, {"group", name_of(said.group)}, {"text", said.what}};
   if (said.text) {
     json["uri"] = places.uri_of(said.path);
     json["range"] = json_of(said.text->range_of(said.span, places.encoding));
@@ -261,8 +260,8 @@ void change_parameters(const Json& values, Customizer& customizer) {
         std::ranges::find(all, name, [](const auto& parameter) { return parameter.name; });
     if (found == all.end()) throw invalid("there is no parameter " + name);
     const auto index = static_cast<std::size_t>(found - all.begin());
-    changes.emplace_back(index, value.is_null() ? std::nullopt
-                                                : std::optional(value_of(value, *found)));
+    changes.emplace_back(index,
+                         value.is_null() ? std::nullopt : std::optional(value_of(value, *found)));
   }
   for (auto& [index, value] : changes) {
     if (value)

@@ -150,8 +150,7 @@ void Previews::pick(uint64_t, Open& open, const Json& params, const Reply& reply
   const window::Size size = open.preview->look().size;
   const window::PicturePoint place{number_of(params, "x", 0, size.width_px),
                                    number_of(params, "y", 0, size.height_px)};
-  const double snap_px =
-      params.contains("snap") ? number_of(params, "snap", 0, kMostSnap_px) : 0;
+  const double snap_px = params.contains("snap") ? number_of(params, "snap", 0, kMostSnap_px) : 0;
   const uint64_t request = wait(open, reply, {});
   if (open.preview->probe(request, navigation, place, snap_px)) return;
   open.waiting.erase(request);
@@ -171,7 +170,8 @@ std::string Previews::output_path(const Open& open, const Json& params) const {
   if (only_design_.empty()) return path;
   std::error_code failure;
   const fs::path whole = fs::weakly_canonical(path, failure);
-  if (failure || whole.parent_path() != fs::path(only_design_).parent_path())
+  if (failure || whole.parent_path() != fs::path(only_design_).parent_path() ||
+      fs::is_symlink(whole, failure))
     throw invalid("files are written beside the design only");
   return whole;
 }
@@ -296,10 +296,9 @@ void Previews::tell_news(uint64_t number) {
       reply.fail(failed(outcome.error));
   }
   if (news.frame) {
-    client_.send_frame({{"jsonrpc", "2.0"},
-                        {"method", "scadray/frame"},
-                        {"params", json_of(*news.frame, number)}},
-                       news.frame->png);
+    client_.send_frame(
+        {{"jsonrpc", "2.0"}, {"method", "scadray/frame"}, {"params", json_of(*news.frame, number)}},
+        news.frame->png);
   }
 }
 

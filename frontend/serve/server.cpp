@@ -40,13 +40,12 @@ Server::Server(language::LanguageVersion version, Send send, SendFrame send_fram
       state_(shows_one_design_ ? State::kInitialized : State::kNew),
       workspace_(version, [this](const std::string& key) { notice_document(key); }),
       sources_(workspace_),
-      previews_(workspace_,
-                {send_, std::move(send_frame), post_,
-                 [this](const std::string& key, const std::string& path) {
-                   return uri_of(key, path);
-                 },
-                 [this] { return encoding_; }},
-                only_design) {}
+      previews_(
+          workspace_,
+          {send_, std::move(send_frame), post_,
+           [this](const std::string& key, const std::string& path) { return uri_of(key, path); },
+           [this] { return encoding_; }},
+          only_design) {}
 
 const std::map<std::string, Server::Handler, std::less<>>& Server::requests() {
   static const std::map<std::string, Handler, std::less<>> kRequests = {

@@ -17,7 +17,7 @@ namespace {
 using language::TextOverlay;
 
 /// The most that is kept of what an evaluation says: a loop may say a million things.
-constexpr std::size_t kMostSaid = 1000;  // and as many echoes
+constexpr std::size_t kMostSaid = 1000;   // and as many echoes
 constexpr std::size_t kMostBytes = 4000;  // of each
 
 /// Takes a file's text as it is now; the same object if it has not changed.

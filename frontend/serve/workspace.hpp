@@ -55,13 +55,13 @@ struct Evaluated {
 
 /// One version of an open document. It does not change: each edit makes another one.
 struct Document {
-  std::string key;   // TextOverlay::key_of its path; of one without a file, a name of its own
-  std::string path;  // absolute; "-": it has no file
+  std::string key;      // TextOverlay::key_of its path; of one without a file, a name of its own
+  std::string path;     // absolute; "-": it has no file
   int64_t version = 0;  // the editor's; of a file that is not open, counted from 1
   TextPointer text{};
-  bool is_open = true;    // in the editor; else the text is the file's
+  bool is_open = true;  // in the editor; else the text is the file's
   uint32_t followers = 0;
-  std::string problem{};   // why the file cannot be read; empty: it can
+  std::string problem{};                               // why the file cannot be read; empty: it can
   std::shared_ptr<language::EvaluationCache> cache{};  // that all its versions share
   std::shared_ptr<const Evaluated> evaluated{};        // the last; null: there was none
 };

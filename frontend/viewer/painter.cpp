@@ -259,8 +259,8 @@ void Painter::load(const PaintOrder& order) {
     return;
   }
   loaded_.reset();
-  ScenePointer scene = order.recolored ? order.recolored
-                                       : ScenePointer(order.design, &order.design->scene);
+  ScenePointer scene =
+      order.recolored ? order.recolored : ScenePointer(order.design, &order.design->scene);
   if (order.section.is_on) {
     scene = std::make_shared<const csgcore::Scene>(
         cut_open(*scene, order.section, order.design->view_box));

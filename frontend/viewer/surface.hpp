@@ -30,7 +30,7 @@ struct Surface {
   /// Of what is round: the radius there. Of a plane: that of the round end whose centre `origin`
   /// is; 0: it is no round end.
   double radius = 0;
-  double length = 0;  // of a straight edge
+  double length = 0;                                                          // of a straight edge
   std::array<csgcore::Vec3, 2> ends{csgcore::Vec3(0.0), csgcore::Vec3(0.0)};  // of the same
 };
 

@@ -91,10 +91,8 @@ class PreviewClient {
   int version = 1;
 };
 
-const Json kTop = {{"rotation", {0, 0, 0}},
-                   {"translation", {5, 5, 0}},
-                   {"distance", 60},
-                   {"projection", "ortho"}};
+const Json kTop = {
+    {"rotation", {0, 0, 0}}, {"translation", {5, 5, 0}}, {"distance", 60}, {"projection", "ortho"}};
 
 /// Takes hours to evaluate, and no memory.
 constexpr const char* kEndless =
@@ -165,10 +163,13 @@ TEST(Preview, ShowsAnIncludedTextThatIsNotSaved) {
 }
 
 TEST(Preview, OfRandomEditsIsThatOfAFreshServer) {
-  constexpr const char* kParts[] = {"cube(%d);\n", "translate([%d, 2, 1]) sphere(4);\n",
+  constexpr const char* kParts[] = {"cube(%d);\n",
+                                    "translate([%d, 2, 1]) sphere(4);\n",
                                     "difference() { cube(12); cylinder(r = %d, h = 30); }\n",
                                     "color(\"red\") cylinder(r = 2, h = %d);\n",
-                                    "%%cube([%d, 2, 20]);\n", "if ((%d\n", "text(\"%d\");\n"};
+                                    "%%cube([%d, 2, 20]);\n",
+                                    "if ((%d\n",
+                                    "text(\"%d\");\n"};
   std::mt19937 random(7);
   std::vector<std::string> lines{"cube(3);\n"};
   const auto joined = [&] {
@@ -555,7 +556,8 @@ TEST(Preview, AClientThatAcknowledgesNothingGetsOneFrame) {
   client.acknowledge();
   client.client.run_until([&] { return client.client.frames.size() > 1; });
   EXPECT_EQ(client.client.frames.back().params["number"], 2);  // the newest alone
-  EXPECT_EQ(client.client.frames.back().image, fresh_picture("translate([0, 0, 3.8]) cube([5, 5, 1.2]);"));
+  EXPECT_EQ(client.client.frames.back().image,
+            fresh_picture("translate([0, 0, 3.8]) cube([5, 5, 1.2]);"));
 }
 
 int threads() {
@@ -639,19 +641,18 @@ TEST(Preview, WrongParametersAreErrors) {
 
 TEST(Preview, OfADocumentWithoutAFile) {
   Client client;
-  client.notify("textDocument/didOpen",
-                {{"textDocument",
-                  {{"uri", "untitled:1"}, {"languageId", "scad"}, {"version", 1},
-                   {"text", "cube(5);"}}}});
+  client.notify(
+      "textDocument/didOpen",
+      {{"textDocument",
+        {{"uri", "untitled:1"}, {"languageId", "scad"}, {"version", 1}, {"text", "cube(5);"}}}});
   const Json result = client.request(
       "scadray/openPreview",
       {{"textDocument", {{"uri", "untitled:1"}}}, {"look", {{"width", 50}, {"height", 50}}}});
   ASSERT_EQ(result["preview"], 1);
   ASSERT_TRUE(client.run_until([&] { return !client.frames.empty(); }));
-  const Json pick = client.request("scadray/pick", {{"preview", 1},
-                                                    {"camera", client.frames[0].params["camera"]},
-                                                    {"x", 25},
-                                                    {"y", 25}});
+  const Json pick = client.request(
+      "scadray/pick",
+      {{"preview", 1}, {"camera", client.frames[0].params["camera"]}, {"x", 25}, {"y", 25}});
   EXPECT_EQ(pick["places"][0]["uri"], "untitled:1");
   EXPECT_EQ(client.request("scadray/savePicture", {{"preview", 1}, {"path", "a.png"}})["code"],
             -32602);
