@@ -276,12 +276,12 @@ TEST_F(HttpTest, MutatedMessagesEndNoServer) {
     for (std::size_t k = pick(3); k > 0; --k) {
       const std::size_t at = pick(text.size() - 12);
       if (pick(2) == 0)
-        text[at] = static_cast<char>(pick(256));
+        text[at] = static_cast<char>(pick(100) == 0 ? pick(256) : ' ' + pick(95));
       else
         text.erase(at, pick(9));
     }
     std::string frame = client_frame(text);
-    if (pick(10) == 0)
+    if (pick(100) == 0)
       frame[pick(std::min<std::size_t>(frame.size(), 8))] = static_cast<char>(pick(256));
     if (!client->connection().send(frame)) client.reset();
   }
