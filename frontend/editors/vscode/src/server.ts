@@ -3,8 +3,17 @@ import * as vscode from 'vscode';
 import { LanguageClient, State } from 'vscode-languageclient/node';
 import type { Executable } from 'vscode-languageclient/node';
 
+/** Leaves it to us to say that the server could not be started, and what to do. */
+class Client extends LanguageClient {
+  isStarting = false;
+
+  override error(message: string, data?: unknown, show?: boolean | 'force'): void {
+    super.error(message, data, this.isStarting ? false : show);
+  }
+}
+
 export class Server implements vscode.Disposable {
-  private client: LanguageClient | null = null;
+  private client: Client | null = null;
   private readonly opened = new vscode.EventEmitter<void>();
   private readonly closed = new vscode.EventEmitter<void>();
   private readonly notified = new vscode.EventEmitter<{ method: string; params: unknown }>();
@@ -39,7 +48,8 @@ export class Server implements vscode.Disposable {
   }
 
   notify(method: string, params: unknown): void {
-    if (this.isOpen) void this.client?.sendNotification(method, params);
+    // One to a server that ends just now is lost; its previews are opened again.
+    if (this.isOpen) this.client?.sendNotification(method, params).catch(() => {});
   }
 
   dispose(): void {
@@ -55,7 +65,7 @@ export class Server implements vscode.Disposable {
     const settings = vscode.workspace.getConfiguration('scadray');
     const command = settings.get<string>('path') || 'scadray';
     const executable: Executable = { command, args: ['serve', `--language=${settings.get<string>('language')}`] };
-    const client = new LanguageClient('scadray', 'scadray', executable, {
+    const client = new Client('scadray', 'scadray', executable, {
       documentSelector: [
         { language: 'scad', scheme: 'file' },
         { language: 'scad', scheme: 'untitled' },
@@ -69,10 +79,13 @@ export class Server implements vscode.Disposable {
       if (newState === State.Stopped) this.closed.fire();
     });
     this.client = client;
+    client.isStarting = true;
     try {
       await client.start();
     } catch (error) {
       void this.tellOfFailure(command, error);
+    } finally {
+      client.isStarting = false;
     }
   }
 
