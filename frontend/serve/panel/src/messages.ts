@@ -22,11 +22,14 @@ function placeOf(message: Message): Place | null {
   return message.uri !== undefined && message.range ? { uri: message.uri, range: message.range } : null;
 }
 
+/** Returns a message in OpenSCAD's words. */
+const wordsOf = ({ group, text }: Message): string => (group ? `${group}: ${text}` : text);
+
 /** Makes a message's line. A click on it opens its place. */
 function line(message: Message, count: number, reveal: (place: Place) => void): HTMLElement {
   const place = placeOf(message);
   const parts = [
-    make('span', { class: 'text' }, message.text),
+    make('span', { class: 'text' }, wordsOf(message)),
     count > 1 ? make('span', { class: 'count' }, `${count}×`) : null,
     place ? make('span', { class: 'place' }, `${nameOf(place.uri)}:${place.range.start.line + 1}`) : null,
   ];
@@ -73,7 +76,7 @@ export class MessagesSheet implements Sheet {
 
   private showList(): void {
     const wanted = this.filter.value.toLowerCase();
-    const shown = counted(this.messages.filter((message) => message.text.toLowerCase().includes(wanted)));
+    const shown = counted(this.messages.filter((message) => wordsOf(message).toLowerCase().includes(wanted)));
     this.list.replaceChildren(...shown.map(({ message, count }) => make('li', {}, line(message, count, this.reveal))));
     if (shown.length === 0) this.list.append(make('li', { class: 'note' }, 'Nothing has been said.'));
   }
