@@ -7,9 +7,11 @@ import { join } from 'node:path';
 import { after, afterEach, before, test } from 'node:test';
 import type { Frame, Pick } from '../../frontend/serve/panel/src/protocol';
 import type { FromExtension, ToExtension } from '../../frontend/serve/panel/src/webview';
+import { launch } from './support/browser';
 import { program } from './support/stdio_client';
 import * as vscode from './support/vscode_mock';
 import { Document, type WebviewPanel, host } from './support/vscode_mock';
+import { showWebview } from './support/webview_page';
 
 const extension = process.env['SCADRAY_EXTENSION']!;
 const folder = mkdtempSync(join(tmpdir(), 'scadray-'));
@@ -170,6 +172,47 @@ test('a hidden preview is closed, and opened again when it is shown', async () =
   await assert.rejects(page.request('scadray/pick', { preview, camera: frame.camera, x: 1, y: 1 }));
   page.say({ kind: 'ready' });
   await page.hear('opened');
+});
+
+test('the panel in its webview, in Chromium', async () => {
+  const browser = await launch();
+  try {
+    const text = 'module leg() cylinder(h = 30, d = 6);\ncube([40, 40, 4]);\nfor (x = [5, 35], y = [5, 35])\n  translate([x, y, -30]) leg();\n';
+    const design = new Document(vscode.Uri.file(join(folder, 'webview.scad')), text);
+    writeFileSync(design.uri.fsPath, text);
+    host.open(design);
+    await host.commands.get('scadray.openPreview')!();
+    const context = await browser.newContext({ viewport: { width: 500, height: 600 } });
+    const page = await showWebview(context, host.panels.at(-1)!, 'vscode-dark');
+    const errors: string[] = [];
+    page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+    await page.locator('canvas[data-final=true]').waitFor();
+    const pixels = () => page.evaluate(() => document.querySelector('canvas')!.toDataURL());
+    const first = await pixels();
+    assert.equal(await page.locator('button[aria-label^="Source"]').count(), 0, 'the editor shows the text');
+    host.type(design, text.replace('d = 6', 'd = 9')); // not saved
+    await page.waitForFunction((before) => document.querySelector('canvas')!.toDataURL() !== before, first);
+    await host.commands.get('scadray.toggleSection')!();
+    await page.locator('.strip[aria-label="Section plane"]').waitFor();
+    await page.locator('button[aria-label^="No section"]').click();
+    await page.mouse.click(250, 300);
+    host.shown.length = 0;
+    await page.locator('.card button.link').first().click();
+    for (let i = 0; i < 100 && host.shown.length === 0; i++) await new Promise((resolve) => setTimeout(resolve, 20));
+    assert.equal(host.shown.pop()?.document, design);
+    await page.screenshot({ path: `${process.env['SCADRAY_PICTURES']}/webview.png` });
+    // What VS Code throws away and loads again is as it was.
+    const state = await page.evaluate(() => sessionStorage.getItem('state'));
+    assert.equal((JSON.parse(state!) as { uri: string }).uri, design.uri.toString());
+    await page.reload();
+    await page.locator('canvas[data-final=true]').waitFor();
+    await page.evaluate(() => delete document.querySelector('canvas')!.dataset['final']);
+    await host.commands.get('scadray.restartServer')!();
+    await page.locator('canvas[data-final=true]').waitFor();
+    assert.deepEqual(errors, []);
+  } finally {
+    await browser.close();
+  }
 });
 
 test('a restart of the server is told to the panels', async () => {

@@ -8,7 +8,13 @@ import type { Pick, Place, Vec3 } from './protocol';
 /** A click measures a vertex, an edge or a circle's centre that is no further away, in pixels of the page. */
 const snapReach_px = 7;
 
-const coordinates = (v: Vec3): string => `[${v.map(digits).join(', ')}]`;
+/** What is so much smaller than the largest coordinate is rounding. */
+const rounding = 1e-9;
+
+function coordinates(v: Vec3): string {
+  const least = rounding * Math.max(...v.map(Math.abs));
+  return `[${v.map((x) => digits(Math.abs(x) < least ? 0 : x)).join(', ')}]`;
+}
 
 /** Returns what is known of the surface at a point, a line each. */
 export function wordsOf(pick: Pick): string[] {

@@ -76,7 +76,10 @@ export class Preview {
     this.onLook.emit(this.look);
     if (this.scheduled) return;
     this.scheduled = true;
-    requestAnimationFrame(() => this.send());
+    requestAnimationFrame(() => {
+      this.scheduled = false;
+      this.send();
+    });
   }
 
   /** Does so while something moves. At rest the picture gets as good as it can be. */
@@ -112,6 +115,7 @@ export class Preview {
   async pick(x: number, y: number, snap = 0): Promise<Pick | null> {
     const camera = this.camera;
     if (this.id === null || !camera) return null;
+    this.send(); // what is asked about is what is wanted now
     try {
       return await this.connection.request('scadray/pick', { preview: this.id, camera, x, y, snap });
     } catch (error) {
@@ -177,9 +181,8 @@ export class Preview {
   }
 
   private send(): void {
-    this.scheduled = false;
     const look = this.unsent;
-    if (this.id === null) return; // opening sends all
+    if (this.id === null || Object.keys(look).length === 0) return; // opening sends all
     this.unsent = {};
     this.connection.notify('scadray/look', { preview: this.id, look });
   }
