@@ -1,5 +1,5 @@
 // run.mjs PROGRAM FOLDER [NAME…]: checks all that is written in TypeScript, builds it into the folder, and runs the tests
-// (of these names, "lsp" for example) with the program scadray. Pictures that tests take stand in FOLDER/pictures.
+// (of these names, "lsp" for example) with the program scadray; or measures, if the name is "measure". Pictures that tests take stand in FOLDER/pictures.
 import { build } from 'esbuild';
 import { spawnSync } from 'node:child_process';
 import { mkdirSync, readdirSync } from 'node:fs';
@@ -34,11 +34,12 @@ const tsc = join(root, 'node_modules/typescript/bin/tsc');
 for (const project of ['frontend/serve/panel', 'frontend/editors/vscode', 'tests/panel']) run(process.execPath, tsc, '-p', project);
 await assemble(join(folder, 'extension'));
 
-const tests = readdirSync(here)
-  .filter((name) => name.endsWith('_test.ts'))
-  .filter((name) => names.length === 0 || names.includes(name.replace('_test.ts', '')));
+const measures = names[0] === 'measure';
+const files = readdirSync(here)
+  .filter((name) => (measures ? name === 'measure.ts' : name.endsWith('_test.ts')))
+  .filter((name) => measures || names.length === 0 || names.includes(name.replace('_test.ts', '')));
 await build({
-  entryPoints: tests.map((name) => join(here, name)),
+  entryPoints: files.map((name) => join(here, name)),
   outdir: folder,
   bundle: true,
   external: ['playwright-core', 'vscode'],
@@ -48,4 +49,5 @@ await build({
   sourcemap: 'inline',
   logLevel: 'warning',
 });
-run(process.execPath, '--enable-source-maps', '--test', '--test-reporter=spec', ...tests.map((name) => join(folder, name.replace('.ts', '.js'))));
+const options = measures ? [] : ['--test', '--test-reporter=spec'];
+run(process.execPath, '--enable-source-maps', ...options, ...files.map((name) => join(folder, name.replace('.ts', '.js'))));

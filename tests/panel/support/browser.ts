@@ -1,6 +1,6 @@
 // Chromium, and in it the panel of a design that `scadray serve --http` shows.
 import { type ChildProcess, spawn } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
@@ -53,7 +53,7 @@ export class Panel {
       });
       server.once('exit', (code) => reject(new Error(`the server ended with ${code}`)));
     });
-    const context = await browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
+    const context = await browser.newContext({ viewport: { width: 560, height: 420 }, ...options });
     const page = await context.newPage();
     const shown = new Panel(page, folder, server);
     await options.before?.(page);
@@ -61,8 +61,11 @@ export class Panel {
     return shown;
   }
 
+  /** Saves another text, as editors do: no one reads half of it. */
   write(text: string): void {
-    writeFileSync(join(this.folder, 'design.scad'), text);
+    const file = join(this.folder, 'design.scad');
+    writeFileSync(`${file}~`, text);
+    renameSync(`${file}~`, file);
   }
 
   /** Waits for a full frame that fits, and returns its numbers. */

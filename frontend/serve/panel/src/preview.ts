@@ -29,6 +29,8 @@ export class Preview {
   private look: Look;
   /** The parameters that have been given a value other than the design's. */
   private values: Record<string, Value>;
+  /** A set has been chosen: the next design tells the values that count from then on. */
+  private takesValues = false;
   private unsent: Look = {};
   private scheduled = false;
   private restTimer = 0;
@@ -134,6 +136,7 @@ export class Preview {
 
   async parameterSet(action: 'choose' | 'save' | 'erase', name: string): Promise<string> {
     const { problem } = await this.connection.request('scadray/parameterSet', { preview: this.opened(), action, name });
+    if (action === 'choose' && !problem) this.takesValues = true;
     return problem;
   }
 
@@ -200,6 +203,11 @@ export class Preview {
   private takeDesign(design: Design): void {
     const asked = this.design && design.camera && JSON.stringify(design.camera) !== JSON.stringify(this.design.camera);
     this.design = design;
+    if (this.takesValues) {
+      const changed = design.parameters.filter(({ value, default: fallback }) => JSON.stringify(value) !== JSON.stringify(fallback));
+      this.values = Object.fromEntries(changed.map(({ name, value }) => [name, value]));
+      this.takesValues = false;
+    }
     // A camera that the design asks for anew, as in an animation, is followed.
     if (asked) this.change({ camera: design.camera! });
     this.onDesign.emit(design);

@@ -6,7 +6,7 @@ import type { Place } from './protocol';
 
 export class SourceSheet implements Sheet {
   readonly name = 'source';
-  title = 'Source';
+  title: string;
   readonly body = make('div', { class: 'source' });
   private uri: string;
   private lit = -1;
@@ -17,6 +17,7 @@ export class SourceSheet implements Sheet {
     private readonly drawer: Drawer,
   ) {
     this.uri = preview.uri;
+    this.title = nameOf(this.uri);
     preview.onDesign.listen(() => this.drawer.shown === this.name && void this.load());
   }
 
@@ -33,7 +34,6 @@ export class SourceSheet implements Sheet {
   }
 
   opened(): void {
-    this.title = nameOf(this.uri);
     if (this.lines.length === 0) void this.load();
   }
 
