@@ -313,3 +313,21 @@ panelTest(
   },
   { colorScheme: 'dark' },
 );
+
+test('the picture in README.md', { timeout: 120_000 }, async () => {
+  const file = `${process.env['SCADRAY_SOURCE']}/examples/enclosure.scad`;
+  const panel = await Panel.open(browser, { file }, { viewport: { width: 960, height: 540 }, colorScheme: 'light' });
+  try {
+    const { page } = panel;
+    let shown = await panel.frame();
+    await page.keyboard.press('t');
+    await page.keyboard.press('v'); // clear of the text
+    shown = await panel.frame(shown);
+    await page.locator('.line', { hasText: 'standoff();' }).click();
+    await panel.frame(shown);
+    await panel.screenshot('panel');
+    assert.deepEqual(panel.errors, []);
+  } finally {
+    await panel.close();
+  }
+});
