@@ -42,6 +42,7 @@ constexpr uint32_t kFewDirections = 64, kManyDirections = 128;
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {
   frontend::RenderSettings settings = order.settings;
+  if (order.overlays.edges) settings.studio.edges = 0;  // the overlay draws them
   if (draws_studio(settings)) {
     settings.samples = std::max(settings.samples, frontend::kStudioSamples);
     settings.studio.directions = kManyDirections;

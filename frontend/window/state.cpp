@@ -120,7 +120,9 @@ State::State(const frontend::Options& options)
       overlays(options.overlays),
       customizer(options.input, options.openscad_arguments),
       language(options.import.language),
-      name(options.input) {}
+      name(options.input) {
+  overlays.edge_color = frontend::EdgeColor::kContrast;
+}
 
 void State::begin(const frontend::Options& options) {
   State fresh(options);

@@ -1,6 +1,8 @@
 // The overlays of OpenSCAD's --view, drawn over a finished picture.
 #pragma once
 
+#include <cstdint>
+
 #include "csgcore/image.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/camera.hpp"
@@ -9,6 +11,12 @@
 
 namespace frontend {
 
+/// The colour of edges.
+enum class EdgeColor : uint8_t {
+  kOpenScad,  // half way from the face's to white, or to the background's
+  kContrast,  // black, or white on what is dark: to be seen in every scheme
+};
+
 struct Overlays {
   bool axes = false;        // the world's axes, and a small red, green and blue set in the lower
                             // left corner
@@ -16,6 +24,7 @@ struct Overlays {
   bool edges = false;       // the edges of OpenSCAD's meshes; of what is smooth, its creases and
                             // outlines
   bool scales = false;      // marks and numbers on the axes; no effect without `axes`
+  EdgeColor edge_color = EdgeColor::kOpenScad;
 
   bool any() const { return axes || crosshairs || edges || scales; }
   bool operator==(const Overlays&) const = default;

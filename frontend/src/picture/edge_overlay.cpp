@@ -139,11 +139,32 @@ class EdgeFinder {
 
 }  // namespace
 
-void draw_edges(Image& image, const View& view, Rgb background, const MeshLookup& meshes) {
+ContrastLines::Color ContrastLines::color_on(const Color& color) {
+  // Relative luminance of sRGB, by the definition of WCAG 2.2.
+  constexpr std::array<double, 3> kShares{0.2126, 0.7152, 0.0722};
+  // Below it, (luminance + 0.05) / 0.05 is less than 3, and 1.05 / (luminance + 0.05) at least 7.
+  constexpr double kDark = 0.1;
+  double luminance = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double value = color[i] / 255.0;
+    luminance +=
+        kShares[i] * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+  }
+  const uint8_t line = luminance < kDark ? 255 : 0;
+  return {line, line, line};
+}
+
+void draw_edges(Image& image, const View& view, const ColorScheme& scheme, const MeshLookup& meshes,
+                const ContrastLines* contrast) {
   const std::vector<uint8_t> is_edge = EdgeFinder(image, view, meshes).find();
+  const Rgb& background = scheme.background;
   const std::array<unsigned, 3> target = {background.r, background.g, background.b};
   for (std::size_t pixel = 0; pixel < is_edge.size(); ++pixel) {
     if (is_edge[pixel] == 0) continue;
+    if (contrast) {
+      image.rgb[pixel] = contrast->at(pixel);
+      continue;
+    }
     for (std::size_t channel = 0; channel < 3; ++channel) {
       uint8_t& value = image.rgb[pixel][channel];
       value = static_cast<uint8_t>((value + target[channel]) / 2);

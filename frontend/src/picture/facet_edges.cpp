@@ -26,17 +26,30 @@ constexpr double kFade_px = 1.41;
 /// may be off by a few ulp, and vertices have the digits of their file.
 constexpr double kInFace = 3e-5;  // share of the distance from the eye
 
+/// The least distance to a line of the pixels that it goes through is no more than this.
+constexpr double kCore_px = 0.5;
+
 /// Returns 1 on the line, and 0 from kFade_px on.
 double strength_at(double distance_px) {
   const double t = std::clamp(distance_px / kFade_px, 0.0, 1.0);
   return 1 - t * t * (3 - 2 * t);
 }
 
+/// The same of a line that is to be seen: one whose pixels keep nothing of what is below.
+double strong_at(double distance_px) {
+  return distance_px <= kCore_px ? 1 : strength_at(distance_px);
+}
+
 class FacetEdgePainter {
  public:
   FacetEdgePainter(Image& image, const View& view, const Camera& camera, const ColorScheme& scheme,
-                   const MeshLookup& meshes)
-      : image_(image), view_(view), projector_(view, camera), scheme_(scheme), meshes_(meshes) {}
+                   const MeshLookup& meshes, const ContrastLines* contrast)
+      : image_(image),
+        view_(view),
+        projector_(view, camera),
+        scheme_(scheme),
+        meshes_(meshes),
+        contrast_(contrast) {}
 
   void draw() {
     for (const uint32_t id : seen_ids()) draw_edges_of(id);
@@ -131,7 +144,8 @@ class FacetEdgePainter {
         std::abs(glm::dot(normal, to - position)) > tolerance) {
       return;
     }
-    strength_[pixel] = std::max(strength_[pixel], static_cast<float>(strength_at(distance_px)));
+    const double strength = contrast_ ? strong_at(distance_px) : strength_at(distance_px);
+    strength_[pixel] = std::max(strength_[pixel], static_cast<float>(strength));
   }
 
   /// Returns the unlit colour of the face that a pixel shows.
@@ -167,14 +181,25 @@ class FacetEdgePainter {
     return glm::dot(normal, position - center) < 0;
   }
 
-  /// Mixes the pixel's colour with one half way from the face's to white.
+  /// Returns OpenSCAD's colour of a line: half way from the face's to white.
+  std::array<double, 3> pale_color(std::size_t pixel) {
+    std::array<double, 3> line = face_color(pixel);
+    for (double& value : line) value = 255 * (value + 1) / 2;
+    return line;
+  }
+
+  /// Mixes the pixel's colour with the line's.
   void blend(std::size_t pixel) {
-    const std::array<double, 3> color = face_color(pixel);
+    std::array<double, 3> line;
+    if (contrast_) {
+      std::ranges::copy(contrast_->at(pixel), line.begin());
+    } else {
+      line = pale_color(pixel);
+    }
     const double share = strength_[pixel];
     for (std::size_t i = 0; i < 3; ++i) {
       uint8_t& value = image_.rgb[pixel][i];
-      const double line = 255 * (color[i] + 1) / 2;
-      value = static_cast<uint8_t>(std::lround(value + share * (line - value)));
+      value = static_cast<uint8_t>(std::lround(value + share * (line[i] - value)));
     }
   }
 
@@ -189,6 +214,7 @@ class FacetEdgePainter {
   Projector projector_;
   const ColorScheme& scheme_;
   const MeshLookup& meshes_;
+  const ContrastLines* const contrast_;
   std::vector<float> strength_;  // by pixel; none if no mesh is seen
   std::vector<Vec3> world_;      // the vertices of the mesh at hand
   std::unordered_map<uint32_t, csgcore::CanonicalPrimitive> canonical_;  // of meshes, by id
@@ -197,8 +223,9 @@ class FacetEdgePainter {
 }  // namespace
 
 void draw_facet_edges(Image& image, const View& view, const Camera& camera,
-                      const ColorScheme& scheme, const MeshLookup& meshes) {
-  FacetEdgePainter(image, view, camera, scheme, meshes).draw();
+                      const ColorScheme& scheme, const MeshLookup& meshes,
+                      const ContrastLines* contrast) {
+  FacetEdgePainter(image, view, camera, scheme, meshes, contrast).draw();
 }
 
 }  // namespace frontend

@@ -1,5 +1,7 @@
 #include "frontend/overlays.hpp"
 
+#include <optional>
+
 #include "picture/edge_overlay.hpp"
 #include "picture/overlay_lines.hpp"
 
@@ -28,8 +30,11 @@ void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camer
   if (!sees_nothing(camera, view.projection)) {
     if (overlays.edges) {
       const MeshLookup meshes(design);
-      draw_edges(image, view, scheme.background, meshes);
-      draw_facet_edges(image, view, camera, scheme, meshes);
+      std::optional<ContrastLines> contrast;
+      if (overlays.edge_color == EdgeColor::kContrast) contrast.emplace(image);
+      const ContrastLines* const colors = contrast ? &*contrast : nullptr;
+      draw_edges(image, view, scheme, meshes, colors);
+      draw_facet_edges(image, view, camera, scheme, meshes, colors);
     }
     LinePainter painter(canvas, view, camera);
     if (overlays.crosshairs) draw_crosshairs(painter, camera);

@@ -180,5 +180,53 @@ TEST_F(FacetEdges, AreHiddenByOtherPrimitives) {
             std::string(15, 'e') + 'e' + std::string(18, '.') + 'e' + std::string(15, 'e'));
 }
 
+/// Returns the contrast ratio of WCAG 2.2.
+double contrast(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b) {
+  const auto luminance = [](const std::array<uint8_t, 3>& color) {
+    const auto linear = [](uint8_t value) {
+      const double share = value / 255.0;
+      return share > 0.04045 ? std::pow((share + 0.055) / 1.055, 2.4) : share / 12.92;
+    };
+    return 0.2126 * linear(color[0]) + 0.7152 * linear(color[1]) + 0.0722 * linear(color[2]);
+  };
+  const double of_a = luminance(a) + 0.05, of_b = luminance(b) + 0.05;
+  return std::max(of_a, of_b) / std::min(of_a, of_b);
+}
+
+TEST_F(FacetEdges, OfTheWindowAreSeenInEverySchemeAndLight) {
+  // From the left: a cube that is turned about its vertical axis, a round post and a ball.
+  const ImportedDesign design = import_design(
+      parse("multmatrix([[0.8,-0.6,0,-6],[0.6,0.8,0,0],[0,0,1,0],[0,0,0,1]])"
+            " cube(size = [4, 4, 6], center = true);"
+            "cylinder(h = 6, r = 2, center = true);"
+            "multmatrix([[1,0,0,6],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) sphere(r = 2);",
+            "a.csg"),
+      {.keeps_meshes = true});
+  camera_.rotation_deg = {70, 0, 0};
+  const csgcore::View view = make_view(camera_, options_);
+  for (const ColorScheme& scheme : color_schemes()) {
+    for (const Shading shading : {Shading::kOpenScad, Shading::kPhong, Shading::kStudio}) {
+      SCOPED_TRACE(std::string(scheme.name) + ", " + std::to_string(static_cast<int>(shading)));
+      RenderSettings settings;
+      settings.measured_channels = true;
+      settings.renderer = RendererKind::kCpu;
+      settings.scheme = scheme;
+      settings.shading = shading;
+      settings.studio = {.shadows = 1, .occlusion = 1, .edges = 0, .directions = 64};
+      RenderStats stats;
+      Image image = render(design.scene, view, settings, stats);
+      const auto below = image.rgb;
+      Overlays overlays{.edges = true, .edge_color = EdgeColor::kContrast};
+      draw_overlays(image, view, camera_, overlays, scheme, design);
+      const auto is_clear = [&](std::size_t i) { return contrast(image.rgb[i], below[i]) >= 3; };
+      std::string middle;
+      for (std::size_t i = 50 * 100; i < 51 * 100; ++i) middle += is_clear(i) ? 'e' : '.';
+      std::size_t lines = middle[0] == 'e';
+      for (std::size_t i = 1; i < 100; ++i) lines += middle[i] == 'e' && middle[i - 1] == '.';
+      EXPECT_EQ(lines, 7u) << middle << ": the cube has three edges, the others two outlines each";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace frontend
