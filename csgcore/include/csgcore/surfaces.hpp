@@ -59,6 +59,8 @@ class SurfaceSink {
                          const float (&z)[PixelBlock::kPixels]) const = 0;
   /// Takes pixels that show it.
   virtual void draw(uint32_t turn, const PixelBlock& block, const SurfacePixels& pixels) = 0;
+  /// Is told of an area of whole squares once all that it shows has been drawn.
+  virtual void end(const PixelArea&) {}
 };
 
 /// Draws surfaces[turns[0]], then surfaces[turns[1]] and so on, with one ray a pixel. Each surface

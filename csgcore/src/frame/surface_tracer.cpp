@@ -458,12 +458,14 @@ void SurfaceTracer::trace() {
   const uint32_t rows = (view_.height_px + kRegionSide_px - 1) / kRegionSide_px;
   tbb::parallel_for(uint32_t{0}, columns * rows, [&](uint32_t task) {
     const uint32_t x = task % columns * kRegionSide_px, y = task / columns * kRegionSide_px;
-    Region region(*this, {x, y, std::min(kRegionSide_px, view_.width_px - x),
-                          std::min(kRegionSide_px, view_.height_px - y)});
+    const Tile area{x, y, std::min(kRegionSide_px, view_.width_px - x),
+                    std::min(kRegionSide_px, view_.height_px - y)};
+    Region region(*this, area);
     for (const Step& step : steps_) {
       if (options_.stop.stop_requested()) return;
       region.draw(step);
     }
+    sink_.end(area);
   });
 }
 

@@ -44,6 +44,12 @@ struct ColorScheme {
   std::optional<Rgb> background_below{};
 };
 
+/// The order in which translucent parts are blended.
+enum class Translucency : uint8_t {
+  kFile,   // OpenSCAD's: that of the file, in which a part hides later ones behind it
+  kDepth,  // from the furthest surface to the nearest
+};
+
 /// Every setting of a picture but the camera's. The defaults are the command's.
 struct RenderSettings {
   ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
@@ -53,6 +59,7 @@ struct RenderSettings {
   std::optional<Rgb> from_within;
   Shading shading = Shading::kOpenScad;
   csgcore::StudioSettings studio;  // of Shading::kStudio
+  Translucency translucency = Translucency::kFile;
   Show show = Show::kSurface;
   RendererKind renderer = RendererKind::kAuto;
   Technique technique = Technique::kAuto;

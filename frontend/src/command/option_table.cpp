@@ -138,6 +138,10 @@ constexpr OptionRow kOwnOptions[] = {
     {"occlusion", Takes::kText, "S",
      "how dark the studio's corners and hollows are, 0 to 1; default 1"},
     {"edges", Takes::kText, "S", "how dark the studio's lines are, 0 to 1; default 1"},
+    {"translucency", Takes::kText, "ORDER",
+     "which of translucent parts are drawn over others: later ones of the file (default), as in "
+     "OpenSCAD, or nearer ones, by depth (the window's default)",
+     kOneOf<kTranslucencies>},
     {"turn", Takes::kNothing, "",
      "the camera of --animate goes once around the design, about its vertical axis"},
     {"editor", Takes::kText, "COMMAND",

@@ -64,6 +64,8 @@ constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
 constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
 constexpr Word<Shading> kShadings[] = {
     {"openscad", Shading::kOpenScad}, {"phong", Shading::kPhong}, {"studio", Shading::kStudio}};
+constexpr Word<Translucency> kTranslucencies[] = {{"file", Translucency::kFile},
+                                                  {"depth", Translucency::kDepth}};
 constexpr Word<Show> kShows[] = {{"surface", Show::kSurface},
                                  {"cells", Show::kCells},
                                  {"depth", Show::kDepth},

@@ -126,6 +126,7 @@ void read_studio(const Arguments& arguments, Options& options) {
 void read_render(const Arguments& arguments, RenderSettings& render) {
   read_color_scheme(arguments, render);
   render.shading = choice(arguments, "shading", kShadings, render.shading);
+  render.translucency = choice(arguments, "translucency", kTranslucencies, render.translucency);
   render.show = choice(arguments, "show", kShows, render.show);
   render.renderer = read_renderer(arguments);
   read_cells_and_threads(arguments, render);
@@ -462,6 +463,7 @@ Options parse_options(const std::vector<std::string>& words) {
       options.handed.empty()) {
     options.action = Action::kOpenWindow;
     if (!options.given.shading) options.render.shading = Shading::kStudio;
+    if (!arguments.has("translucency")) options.render.translucency = Translucency::kDepth;
   }
   read_studio(arguments, options);
   check_inputs(options);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace frontend {
@@ -109,8 +110,14 @@ float PreparedLayer::opacity(uint32_t id) const {
   return opacity_ ? *opacity_ : own_opacity_.at(id);
 }
 
+bool PreparedLayer::is_opaque() const {
+  return std::ranges::all_of(own_opacity_, [](const auto& entry) { return entry.second >= 1; });
+}
+
 LayerSurfaces::LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
-                             const csgcore::FrameSettings& frame) {
+                             const csgcore::FrameSettings& frame, Translucency order_of_blending)
+    : order(order_of_blending) {
+  const bool is_by_depth = order == Translucency::kDepth;
   std::map<const csgcore::Solid*, uint32_t> parts;
   uint32_t number = 0;
   for (const PreparedLayer* const layer : layers) {
@@ -120,13 +127,15 @@ LayerSurfaces::LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
       return static_cast<uint32_t>(surfaces.size()) - 1;
     };
     ++number;
-    has_parts = has_parts || !layer->parts().empty();
+    has_parts = has_parts || (!is_by_depth && !layer->parts().empty());
     const auto take_turn = [&](uint32_t surface, bool is_part) {
       turns.push_back(surface);
       blended.push_back({layer, number, is_part});
     };
-    if (layer->shows_behind()) take_turn(add(layer->solid(), Boundary::kBehind), false);
+    const bool has_far_side = is_by_depth ? !layer->is_opaque() : layer->shows_behind();
+    if (has_far_side) take_turn(add(layer->solid(), Boundary::kBehind), false);
     take_turn(add(layer->solid(), Boundary::kFirst), false);
+    if (is_by_depth) continue;
     for (const PreparedLayer::Part& part : layer->parts()) {
       const auto [entry, is_new] = parts.try_emplace(part.solid.get(), 0);
       if (is_new) {
@@ -141,6 +150,7 @@ Compositor::Compositor(Image& image, std::span<const float> depth, double scene_
                        const LayerSurfaces& surfaces)
     : image_(image),
       scene_size_(scene_size),
+      surfaces_(surfaces),
       turns_(surfaces.blended),
       squares_across_((image.width_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px),
       stride_px_(squares_across_ * kSurfaceSquare_px) {
@@ -153,6 +163,7 @@ Compositor::Compositor(Image& image, std::span<const float> depth, double scene_
   const uint32_t squares_down = (image.height_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px;
   squares_.assign(size_t{squares_across_} * squares_down,
                   {kNothing, kNothing, kNoLayer, false, true});
+  if (surfaces.order == Translucency::kDepth) fragments_.resize(squares_.size());
 }
 
 size_t Compositor::square_at(uint32_t x, uint32_t y) const {
@@ -307,6 +318,7 @@ uint32_t Compositor::shown(uint32_t turn, const PixelBlock& block,
 void Compositor::draw(uint32_t turn, const PixelBlock& block,
                       const csgcore::SurfacePixels& pixels) {
   const Turn& own = turns_[turn];
+  if (!fragments_.empty()) return keep(turn, block, pixels);
   for_each_row(block, stride_px_, [&](uint32_t first, size_t index) {
     const uint32_t drawn = block.pixels >> first & kRowPixels;
     const size_t row = block.y + first / PixelBlock::kWidth_px;
@@ -318,10 +330,94 @@ void Compositor::draw(uint32_t turn, const PixelBlock& block,
       if (!last_layer_.empty()) last_layer_[index + x] = own.number;
     }
   });
-  if (own.is_part) return;
+  if (!own.is_part) mark_stale(block);
+}
+
+void Compositor::mark_stale(const PixelBlock& block) {
   Square& square = squares_[square_at(block.x, block.y)];
   square = {square.furthest, square.furthest, kNoLayer, false, true};
 }
+
+void Compositor::keep(uint32_t turn, const PixelBlock& block,
+                      const csgcore::SurfacePixels& pixels) {
+  const PreparedLayer& layer = *turns_[turn].layer;
+  std::vector<Fragment>& kept = fragments_[square_at(block.x, block.y)];
+  for (uint32_t left = block.pixels; left != 0; left &= left - 1) {
+    const auto pixel = static_cast<uint32_t>(std::countr_zero(left));
+    const float opacity = std::min(layer.opacity(pixels.id[pixel]), 1.0f);
+    if (!(opacity > 0)) continue;
+    const uint32_t x = block.x + pixel % PixelBlock::kWidth_px;
+    const uint32_t y = block.y + pixel / PixelBlock::kWidth_px;
+    const uint32_t in_square = y % kSurfaceSquare_px * kSurfaceSquare_px + x % kSurfaceSquare_px;
+    kept.push_back(
+        {pixels.z[pixel], opacity, pixels.rgb[pixel], static_cast<uint8_t>(in_square), turn});
+    float& depth = depth_[size_t{y} * stride_px_ + x];
+    if (opacity == 1) depth = std::min(depth, pixels.z[pixel]);
+  }
+  mark_stale(block);
+}
+
+/// Returns which of two coincident surfaces is below: an opaque one, the earlier of such; else what
+/// is the same in whatever order the file has them. Between parts that touch, the nearer one ends.
+bool Compositor::is_below(const Fragment& a, const Fragment& b) const {
+  const auto rank = [this](const Fragment& fragment) {
+    const bool is_opaque = fragment.opacity == 1;
+    const bool is_far_side =
+        surfaces_.surfaces[surfaces_.turns[fragment.turn]].boundary == Boundary::kBehind;
+    return std::tuple(!is_opaque, is_opaque ? fragment.turn : 0, is_far_side, fragment.opacity,
+                      fragment.rgb);
+  };
+  return rank(a) < rank(b);
+}
+
+/// Blends what the pixel shows; `fragments` go from the furthest to the nearest.
+void Compositor::blend_pixel(std::span<Fragment> fragments, float nearest_opaque,
+                             std::array<uint8_t, 3>& rgb) const {
+  std::array<float, 3> color;
+  std::ranges::copy(rgb, color.begin());
+  const auto is_hidden = [&](const Fragment& fragment) {
+    return fragment.z - reach(fragment.z) > nearest_opaque;
+  };
+  auto first = std::ranges::find_if_not(fragments, is_hidden);
+  while (first != fragments.end()) {
+    auto last = first + 1;
+    while (last != fragments.end() && (last - 1)->z - last->z <= reach(last->z)) ++last;
+    std::sort(first, last, [this](const auto& a, const auto& b) { return is_below(a, b); });
+    for (; first != last; ++first) {
+      for (size_t channel = 0; channel < 3; ++channel) {
+        color[channel] += first->opacity * (first->rgb[channel] - color[channel]);
+      }
+    }
+  }
+  for (size_t channel = 0; channel < 3; ++channel) {
+    rgb[channel] = static_cast<uint8_t>(color[channel] + 0.5f);
+  }
+}
+
+void Compositor::blend_square(uint32_t x, uint32_t y) {
+  std::vector<Fragment> kept = std::exchange(fragments_[square_at(x, y)], {});
+  std::ranges::sort(kept, [](const Fragment& a, const Fragment& b) {
+    return a.pixel != b.pixel ? a.pixel < b.pixel : a.z > b.z;
+  });
+  for (std::span<Fragment> rest(kept); !rest.empty();) {
+    const uint32_t pixel = rest.front().pixel;
+    const auto end = std::ranges::find_if(rest, [&](const auto& f) { return f.pixel != pixel; });
+    const auto count = static_cast<size_t>(end - rest.begin());
+    const uint32_t row = y + pixel / kSurfaceSquare_px, column = x + pixel % kSurfaceSquare_px;
+    blend_pixel(rest.first(count), depth_[size_t{row} * stride_px_ + column],
+                image_.rgb[size_t{row} * image_.width_px + column]);
+    rest = rest.subspan(count);
+  }
+}
+
+void Compositor::end(const csgcore::PixelArea& area) {
+  if (fragments_.empty()) return;
+  for (uint32_t y = area.y; y < area.y + area.height; y += kSurfaceSquare_px) {
+    for (uint32_t x = area.x; x < area.x + area.width; x += kSurfaceSquare_px) blend_square(x, y);
+  }
+}
+
+void Compositor::finish() { end({0, 0, image_.width_px, image_.height_px}); }
 
 void Compositor::blend(uint32_t turn, const Image& picture, const csgcore::PixelArea& area) {
   const uint32_t right = area.x + area.width, bottom = area.y + area.height;

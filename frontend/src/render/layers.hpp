@@ -17,6 +17,7 @@
 #include "csgcore/scene.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/surfaces.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 
@@ -41,6 +42,7 @@ class PreparedLayer {
   const csgcore::Solid& solid() const { return solid_; }
   bool is_of_model() const { return kind_ == csgcore::Layer::Kind::kModel; }
   bool shows_behind() const { return shows_behind_; }
+  bool is_opaque() const;
   /// The operands whose surfaces count by themselves (csgcore::Layer::parts).
   struct Part;
   const std::vector<Part>& parts() const { return parts_; }
@@ -63,7 +65,9 @@ struct PreparedLayer::Part {
   bool is_subtracted;                           // the surface that counts is its far side
 };
 
-/// The surfaces of layers, and the order in which they are blended.
+/// The surfaces of layers, and the order in which they are blended. By depth, all layers that are
+/// not opaque have a far side, and none has parts: the turns only settle which of coincident opaque
+/// surfaces shows.
 struct LayerSurfaces {
   struct Turn {
     const PreparedLayer* layer;
@@ -74,15 +78,17 @@ struct LayerSurfaces {
   std::vector<uint32_t> turns;  // indices of surfaces
   std::vector<Turn> blended;    // by turn
   bool has_parts = false;
+  Translucency order;
 
   /// `frame` is the scene's.
   LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
-                const csgcore::FrameSettings& frame);
+                const csgcore::FrameSettings& frame, Translucency order);
 };
 
-/// Blends the surfaces of layers over a picture: those of a layer itself where no earlier one lies
-/// in front of them, and a part's where it coincides with what is seen, unless that is of the
-/// part's layer.
+/// Blends the surfaces of layers over a picture. In the file's order: those of a layer itself where
+/// no earlier one lies in front of them, and a part's where it coincides with what is seen, unless
+/// that is of the part's layer. By depth: all that no opaque surface hides, from the furthest to
+/// the nearest, whatever their turns.
 class Compositor final : public csgcore::SurfaceSink {
  public:
   /// `depth` holds View's s of what each pixel of `image` shows, +inf where that is nothing, or
@@ -94,6 +100,8 @@ class Compositor final : public csgcore::SurfaceSink {
 
   /// Blends the surface of a turn from its picture in the area, with z and id channels.
   void blend(uint32_t turn, const csgcore::Image& picture, const csgcore::PixelArea& area);
+  /// Ends the picture, once all turns have been drawn.
+  void finish();
 
   bool wants(uint32_t turn, const csgcore::PixelArea& area, float nearest_z) const override;
   uint32_t wanted(uint32_t turn, const csgcore::PixelBlock& block, float nearest_z,
@@ -102,6 +110,7 @@ class Compositor final : public csgcore::SurfaceSink {
                  const float (&z)[csgcore::PixelBlock::kPixels]) const override;
   void draw(uint32_t turn, const csgcore::PixelBlock& block,
             const csgcore::SurfacePixels& pixels) override;
+  void end(const csgcore::PixelArea& area) override;
 
  private:
   using Turn = LayerSurfaces::Turn;
@@ -123,6 +132,22 @@ class Compositor final : public csgcore::SurfaceSink {
   /// A surface at z coincides with those that are no further away than this.
   double reach(double z) const { return (std::abs(z) + scene_size_) * kSameDepth; }
 
+  /// A surface in a pixel that waits for all others of the pixel, by depth.
+  struct Fragment {
+    float z;
+    float opacity;  // in (0, 1]
+    std::array<uint8_t, 3> rgb;
+    uint8_t pixel;  // in the square, from its top left
+    uint32_t turn;
+  };
+
+  void keep(uint32_t turn, const csgcore::PixelBlock& block, const csgcore::SurfacePixels& pixels);
+  void blend_square(uint32_t x, uint32_t y);
+  void blend_pixel(std::span<Fragment> fragments, float nearest_opaque,
+                   std::array<uint8_t, 3>& rgb) const;
+  bool is_below(const Fragment& a, const Fragment& b) const;
+  void mark_stale(const csgcore::PixelBlock& block);
+
   static void blend_row(const PreparedLayer& layer, uint32_t drawn,
                         const csgcore::SurfacePixels& pixels, uint32_t first,
                         std::array<uint8_t, 3>* row);
@@ -132,13 +157,16 @@ class Compositor final : public csgcore::SurfaceSink {
 
   csgcore::Image& image_;
   const double scene_size_;
+  const LayerSurfaces& surfaces_;
   const std::vector<Turn>& turns_;
   const uint32_t squares_across_;
   // Threads that draw squares side by side share no row of a block: all rows are of whole squares.
   const uint32_t stride_px_;
-  std::vector<float> depth_;          // of what was drawn last at each pixel
+  std::vector<float> depth_;          // of what was drawn last at each pixel; by depth, of the
+                                      // nearest opaque surface
   std::vector<uint32_t> last_layer_;  // that is seen at each pixel; none if no part asks for it
   mutable std::vector<Square> squares_;
+  std::vector<std::vector<Fragment>> fragments_;  // by square; none in the file's order
 };
 
 }  // namespace frontend

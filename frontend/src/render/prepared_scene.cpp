@@ -136,10 +136,11 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   if (request.settings.show == Show::kCells || (composition.layers.empty() && !is_studio)) {
     return image;
   }
-  const LayerSurfaces surfaces(composition.layers, frame);
+  const LayerSurfaces surfaces(composition.layers, frame, request.settings.translucency);
   if (!composition.model_is_layered && !is_studio) {
     Compositor compositor(image, image.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, request, compositor);
+    compositor.finish();
     return image;
   }
   // Layers and the studio's light have one ray a pixel. So a smooth picture of them is one of more
@@ -162,6 +163,7 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   if (!composition.layers.empty()) {
     Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, of_fine, compositor);
+    compositor.finish();
   }
   if (is_studio && composition.model_is_layered) finish_studio(model_, of_fine, fine);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);

@@ -432,6 +432,11 @@ TEST(Options, Panning) {
 
 TEST(Options, ShadingAndShow) {
   EXPECT_THAT(help_text(), HasSubstr("openscad (default), phong or studio"));
+  EXPECT_EQ(parse_drawing({}).render.translucency, Translucency::kFile);
+  EXPECT_EQ(parse_drawing({"--translucency=depth"}).render.translucency, Translucency::kDepth);
+  EXPECT_EQ(parse_options({"a.scad"}).render.translucency, Translucency::kDepth);
+  EXPECT_EQ(parse_options({"--translucency=file", "a.scad"}).render.translucency,
+            Translucency::kFile);
   EXPECT_EQ(parse_drawing({"--shading=phong"}).render.shading, Shading::kPhong);
   EXPECT_EQ(parse_drawing({"--shading=openscad"}).render.shading, Shading::kOpenScad);
   EXPECT_EQ(parse_drawing({"--shading=studio"}).render.shading, Shading::kStudio);

@@ -105,6 +105,7 @@ TEST_P(OnePass, IsThePictureOfLayersOneByOne) {
     const std::string text = RandomDesign(seed).text(1 + seed % 3);
     ImportOptions options;
     if (seed % 5 == 4) options.picture = PictureKind::kThrownTogether;
+    settings.translucency = seed % 4 == 1 ? Translucency::kDepth : Translucency::kFile;
     const auto scene =
         std::make_shared<csgcore::Scene>(import_design(parse(text, "a.csg"), options).scene);
     CameraOptions camera;

@@ -147,6 +147,18 @@ TEST_P(Layers, AlphaZeroHidesWhatComesLater) {
   expect_middle(colored("[1, 0, 0, 0]", kCube) + moved(0, 0, -20, kCube), kPaper);
 }
 
+TEST_P(Layers, ByDepthAllAreSeenWhateverTheFilesOrder) {
+  settings_.translucency = Translucency::kDepth;
+  const std::string low = colored(kRedGlass, moved(0, 0, -10, kCube));
+  const std::string high = colored("[0, 0, 1, 0.25]", moved(0, 0, 10, kCube));
+  const Color red = over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5);
+  const Color both = over(over(red, lit(kBlue), 0.25), lit(kBlue), 0.25);
+  expect_middle(low + high, both);
+  expect_middle(high + low, both);
+  expect_middle(colored("[1, 1, 1, 0]", moved(0, 0, 30, kCube)) + high + low, both);
+  expect_middle(high + kCube + low, over(over(lit(kFront), lit(kBlue), 0.25), lit(kBlue), 0.25));
+}
+
 TEST_P(Layers, OfCoincidentFacesTheLaterIsDrawn) {
   const Color red = over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5);
   expect_middle(colored(kRedGlass, kCube) + kCube, lit(kFront));
