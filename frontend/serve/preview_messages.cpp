@@ -48,7 +48,7 @@ window::SectionPlane section_of(const Json& json) {
   section.is_on = true;
   const double axis = number_of(json, "axis", 0, 2);
   if (axis != std::floor(axis)) throw invalid("\"axis\" is none of 0, 1 and 2");
-  section.axis = static_cast<uint8_t>(axis);
+  section.normal = window::axis_of(static_cast<uint8_t>(axis));
   section.position = finite(member_of(json, "position"), "position");
   section.is_flipped = flag_of(json, "flipped");
   return section;

@@ -139,7 +139,7 @@ Navigation view_all(const Navigation& before, const frontend::ImportedDesign& de
         before, box, [&](const Mat3& to_frame) { return seen_box(scene, box, to_frame); }, part);
   };
   if (!section.is_on) return shown(design.scene, bounds);
-  const csgcore::Scene cut = cut_open(design.scene, section, design.view_box);
+  const csgcore::Scene cut = cut_open(design.scene, section, design.view_box).scene;
   return shown(cut, seen_box(cut));
 }
 

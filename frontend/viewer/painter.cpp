@@ -9,6 +9,7 @@
 #include "base/elapsed.hpp"
 #include "csgcore/stop_scope.hpp"
 #include "frontend/picture_file.hpp"
+#include "section_hatch.hpp"
 #include "section_plane.hpp"
 #include "snap.hpp"
 
@@ -262,9 +263,11 @@ void Painter::load(const PaintOrder& order) {
   loaded_.reset();
   ScenePointer scene =
       order.recolored ? order.recolored : ScenePointer(order.design, &order.design->scene);
+  section_parts_.clear();
   if (order.section.is_on) {
-    scene = std::make_shared<const csgcore::Scene>(
-        cut_open(*scene, order.section, order.design->view_box));
+    CutScene cut = cut_open(*scene, order.section, order.design->view_box, order.design->parts);
+    scene = std::make_shared<const csgcore::Scene>(std::move(cut.scene));
+    section_parts_ = std::move(cut.parts);
   }
   renderer_.load(scene);
   scene_ = std::move(scene);
@@ -283,7 +286,8 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
     activity_.update(stage, fraction);
     if (order.settings.progress) order.settings.progress(stage, fraction);
   };
-  settings.measured_channels |= is_channel(settings.show) || order.overlays.any();
+  const bool has_section = order.section.is_on && settings.show == Show::kSurface;
+  settings.measured_channels |= is_channel(settings.show) || order.overlays.any() || has_section;
   const Clock::time_point start = Clock::now();
   try {
     load(order);
@@ -294,8 +298,22 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
                          ? renderer_.redraw(view, settings, painting.stats)
                          : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
-    frontend::draw_overlays(painting.image, view, order.navigation.camera(), order.overlays,
-                            settings.scheme, *order.design);
+    const auto draw_overlays = [&](const frontend::Overlays& overlays) {
+      frontend::draw_overlays(painting.image, view, order.navigation.camera(), overlays,
+                              settings.scheme, *order.design);
+    };
+    // What is hatched has its colour yet where edges are drawn, and hides no axes.
+    frontend::Overlays edges{.edges = order.overlays.edges,
+                             .edge_color = order.overlays.edge_color};
+    draw_overlays(edges);
+    if (has_section) {
+      const double distance = order.navigation.camera().distance;
+      draw_section_faces(painting.image, view, order.section, section_parts_,
+                         hatch_spacing(order.navigation.view(order.size), distance));
+    }
+    frontend::Overlays others = order.overlays;
+    others.edges = false;
+    draw_overlays(others);
     const auto traced = static_cast<double>(painting.stats.edit.pixels_traced);
     const bool is_most = traced >= kMostOfPicture * size.width_px * size.height_px;
     const bool is_plain = settings.samples == 1 && !draws_studio(settings);
@@ -338,7 +356,7 @@ void Painter::describe(const RayHit& hit, Finding& finding) const {
   finding.position = hit.position;
   finding.normal = hit.normal;
   finding.surface = hit.surface;
-  finding.is_cut = scene_->primitives[primitive].id == kSectionId;
+  finding.is_cut = is_section_face(scene_->primitives[primitive].id);
   if (finding.is_cut) {
     const std::optional<uint32_t> around = primitive_around(
         design.scene.model,

@@ -151,8 +151,9 @@ class Painter {
   std::shared_ptr<const frontend::ImportedDesign> loaded_;
   SectionPlane loaded_section_;
   std::shared_ptr<const csgcore::Scene> loaded_colors_;  // PaintOrder::recolored
-  ScenePointer scene_;       // the loaded design's, cut by the section plane
-  double ms_per_pixel_ = 0;  // of the last picture of which most was traced; 0: unknown
+  ScenePointer scene_;                   // the loaded design's, cut by the section plane
+  std::vector<uint32_t> section_parts_;  // CutScene::parts of it
+  double ms_per_pixel_ = 0;              // of the last picture of which most was traced; 0: unknown
   /// The last picture that was drawn in its whole size.
   struct Drawn {
     const frontend::ImportedDesign* design = nullptr;  // to compare with: it may be gone

@@ -11,11 +11,13 @@
 namespace window {
 namespace {
 
-/// The step by which a plane is moved, as a share of the design's size, to see how its axis runs on
-/// the screen.
+/// The step by which a plane is moved, as a share of the design's size, to see how its normal runs
+/// on the screen.
 constexpr double kSectionStep = 0.01;
-/// An axis along which that step is shorter than this is seen end-on.
-constexpr double kLeastAxis_px = 0.25;
+/// A normal along which that step is shorter than this is seen end-on.
+constexpr double kLeastNormal_px = 0.25;
+/// A plane turns by so much for each pixel of a drag, as the view does.
+constexpr double kSectionTurn_deg = 0.7;
 
 /// A click measures a vertex, an edge or a circle's centre that is no further away, in units of the
 /// screen.
@@ -35,7 +37,11 @@ void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy
   is_moving_ = true;
   end_hover();
   if (button == Button::kLeft && (modifiers & kControl) && state_.section.is_on) {
-    drag_section(dx_px, dy_px);
+    if (with_shift) {
+      state_.turn_section(kSectionTurn_deg * dy_px, kSectionTurn_deg * dx_px);
+    } else {
+      drag_section(dx_px, dy_px);
+    }
   } else if (button == Button::kLeft) {
     state_.navigation.turn(dx_px, dy_px, with_shift);
   } else if (button == Button::kMiddle || with_shift) {
@@ -47,26 +53,25 @@ void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy
   }
 }
 
-/// Moves the plane so that it follows the mouse along its axis, as that is seen.
+/// Moves the plane so that it follows the mouse along its normal, as that is seen.
 void Application::drag_section(double dx_px, double dy_px) {
   const csgcore::Box bounds = state_.bounds();
   if (bounds.empty()) return;
   SectionPlane& section = state_.section;
   const csgcore::View view = state_.navigation.view(window_.size());
-  csgcore::Vec3 on_plane = bounds.center();
-  on_plane[section.axis] = section.position;
-  csgcore::Vec3 further = on_plane;
+  const csgcore::Vec3 on_plane = state_.section_middle();
   const double step = bounds.diagonal() * kSectionStep;
-  further[section.axis] += step;
-  const auto from = project(view, on_plane), to = project(view, further);
+  const auto from = project(view, on_plane), to = project(view, on_plane + step * section.normal);
   if (!from || !to) return;
   const double x = to->x_px - from->x_px, y = to->y_px - from->y_px;
   const double length_px = std::hypot(x, y);
-  // A plane that is seen along its axis does not move on the screen: a drag downwards moves it
+  // A plane that is seen along its normal does not move on the screen: a drag downwards moves it
   // forward.
-  const double moved_px = length_px >= kLeastAxis_px ? (dx_px * x + dy_px * y) / length_px : dy_px;
-  const double position = section.position + step * moved_px / std::max(length_px, kLeastAxis_px);
-  section.position = std::clamp(position, bounds.min[section.axis], bounds.max[section.axis]);
+  const double moved_px =
+      length_px >= kLeastNormal_px ? (dx_px * x + dy_px * y) / length_px : dy_px;
+  const double position = section.position + step * moved_px / std::max(length_px, kLeastNormal_px);
+  const auto [low, high] = positions_in(bounds, section.normal);
+  section.position = std::clamp(position, low, high);
 }
 
 void Application::wheel(double notches, double x_px, double y_px) {
@@ -137,6 +142,7 @@ void Application::take_finding(const Finding& finding) {
     case Probe::Purpose::kCenter:
       if (finding.is_hit) state_.navigation.look_at(finding.position);
       state_.points.clear();  // the first of the two clicks has measured a point
+      if (!state_.last_points.empty()) state_.last_points.pop_back();
       return;
     case Probe::Purpose::kHover:
       if (!finding.is_hit || probe.number != hovering_) return;

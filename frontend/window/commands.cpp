@@ -62,6 +62,10 @@ constexpr CommandRow kRows[] = {
     {Command::kSectionY, Menu::kSection, "Across y", "Y", GLFW_KEY_Y, kNone, false},
     {Command::kSectionZ, Menu::kSection, "Across z", "Z", GLFW_KEY_Z, kNone, false},
     {Command::kSectionFlip, Menu::kSection, "Other side", "F", GLFW_KEY_F, kNone, false},
+    {Command::kSectionFace, Menu::kSection, "Along the measured face", "Shift+F", GLFW_KEY_F,
+     kShift, true},
+    {Command::kSectionPoints, Menu::kSection, "Through the last three points", "Shift+C",
+     GLFW_KEY_C, kShift, false},
 
     {Command::kForgetPoints, Menu::kView, "Forget measured points", "Esc", GLFW_KEY_ESCAPE, kNone,
      true},

@@ -46,6 +46,8 @@ enum class Command : uint8_t {
   kSectionY,
   kSectionZ,
   kSectionFlip,
+  kSectionFace,
+  kSectionPoints,
   kParameters,
   kAnimation,
   kPlay,

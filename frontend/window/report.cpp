@@ -92,6 +92,7 @@ void Report::write(const State& state, double save_to_screen_ms) {
       {"camera", camera_of(state.navigation)},
       {"section_on", state.section.is_on},
       {"section_position", state.section.position},
+      {"section_normal", array_of(state.section.normal)},
       {"points", points_of(state)},
       {"hovered", state.hovered ? leaf_of(state.hovered->place, state.hovered->is_cut) : json()},
       {"frames_per_second", state.frames_per_second},

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "framing.hpp"
@@ -95,6 +98,8 @@ auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) 
   }
 }
 
+/// Three points lie on a line if the sine of their angle is no more than this.
+constexpr double kLeastSine = 1e-6;
 constexpr double kKeyZoom = 1;  // in notches of the wheel
 
 std::string text(const char* format, double value) {
@@ -142,7 +147,10 @@ void State::begin(const frontend::Options& options) {
 
 void State::take(frontend::DesignVersion newest) {
   if (newest.design) {
-    if (design != newest.design) points.clear();
+    if (design != newest.design) {
+      points.clear();
+      last_points.clear();
+    }
     design = newest.design;
   }
   messages = messages_of(newest);
@@ -168,6 +176,8 @@ void State::ask_for_model() {
 
 void State::measure(MeasuredPoint point) {
   if (points.size() == 2) points.clear();
+  if (last_points.size() == 3) last_points.erase(last_points.begin());
+  last_points.push_back(point.position);
   chosen_step = point.place.leaf;
   points.push_back(std::move(point));
 }
@@ -189,19 +199,65 @@ void State::view_all() {
   if (design) navigation = window::view_all(navigation, *design, bounds(), section, free_part);
 }
 
-void State::set_section_axis(uint8_t axis) {
-  const csgcore::Box box = bounds();
+csgcore::Vec3 State::section_middle() const {
+  const csgcore::Vec3 center = bounds().center();
+  return center + (section.position - glm::dot(center, section.normal)) * section.normal;
+}
+
+void State::set_section(const csgcore::Vec3& normal, const csgcore::Vec3& point) {
   section.is_on = true;
-  section.axis = axis;
-  section.position = box.empty() ? 0 : box.center()[axis];
-  section.is_flipped = navigation.view({1, 1}).forward[axis] > 0;
+  section.normal = normal;
+  section.position = glm::dot(point, normal);
+  section.is_flipped = glm::dot(navigation.view({1, 1}).forward, normal) > 0;
+}
+
+void State::set_section_normal(const csgcore::Vec3& normal) {
+  const csgcore::Box box = bounds();
+  set_section(normal, box.empty() ? csgcore::Vec3(0.0) : box.center());
 }
 
 void State::move_section(double share) {
   const csgcore::Box box = bounds();
   if (!section.is_on || box.empty()) return;
-  const double low = box.min[section.axis], high = box.max[section.axis];
+  const auto [low, high] = positions_in(box, section.normal);
   section.position = std::clamp(section.position + share * (high - low), low, high);
+}
+
+void State::turn_section(double about_x_deg, double about_y_deg) {
+  if (!section.is_on || bounds().empty()) return;
+  const csgcore::Vec3 middle = section_middle();
+  const csgcore::View view = navigation.view({1, 1});
+  const auto turned = [](const csgcore::Vec3& v, const csgcore::Vec3& axis, double angle_deg) {
+    const double angle = angle_deg * std::numbers::pi / 180;
+    return std::cos(angle) * v + std::sin(angle) * glm::cross(axis, v) +
+           (1 - std::cos(angle)) * glm::dot(axis, v) * axis;
+  };
+  section.normal =
+      glm::normalize(turned(turned(section.normal, view.right, about_x_deg), view.up, about_y_deg));
+  section.position = glm::dot(middle, section.normal);
+}
+
+/// Cuts parallel to the flat face that was measured last.
+void State::cut_along_face() {
+  if (points.empty() || points.back().surface.kind != Surface::Kind::kPlane) {
+    notice = "click on a flat face first: the section plane is laid along it";
+    return;
+  }
+  set_section_normal(points.back().surface.direction);
+}
+
+void State::cut_through_points() {
+  if (last_points.size() < 3) {
+    notice = "click on three points first: the section plane is laid through them";
+    return;
+  }
+  const csgcore::Vec3 a = last_points[1] - last_points[0], b = last_points[2] - last_points[0];
+  const csgcore::Vec3 across = glm::cross(a, b);
+  if (!(glm::length(across) > kLeastSine * glm::length(a) * glm::length(b))) {
+    notice = "the three points lie on a line: they give no section plane";
+    return;
+  }
+  set_section(glm::normalize(across), last_points[0]);
 }
 
 bool State::apply(Command command) {
@@ -210,7 +266,7 @@ bool State::apply(Command command) {
   } else if (const auto show = shown_by(command)) {
     look.show = *show;
   } else if (const auto axis = section_axis(command)) {
-    set_section_axis(*axis);
+    set_section_normal(axis_of(*axis));
   } else if (bool* const turned = switch_of(*this, command)) {
     *turned = !*turned;
     if (shows_parameters && command == Command::kParameters && customizer.parameters().empty()) {
@@ -255,14 +311,21 @@ bool State::apply(Command command) {
         if (section.is_on) {
           section.is_on = false;
         } else {
-          set_section_axis(section.axis);
+          set_section_normal(section.normal);
         }
+        break;
+      case Command::kSectionFace:
+        cut_along_face();
+        break;
+      case Command::kSectionPoints:
+        cut_through_points();
         break;
       case Command::kSectionFlip:
         section.is_flipped = !section.is_flipped;
         break;
       case Command::kForgetPoints:
         points.clear();
+        last_points.clear();
         shows_help = false;
         break;
       case Command::kPlay:
@@ -295,7 +358,7 @@ bool State::apply(Command command) {
 
 bool State::is_checked(Command command) const {
   if (const auto show = shown_by(command)) return look.show == *show;
-  if (const auto axis = section_axis(command)) return section.is_on && section.axis == *axis;
+  if (const auto axis = section_axis(command)) return section.is_on && section.axis() == *axis;
   if (const bool* const turned = switch_of(*this, command)) return *turned;
   switch (command) {
     case Command::kPerspective:

@@ -58,8 +58,9 @@ struct State {
   frontend::RenderSettings look;
   frontend::Overlays overlays;
   SectionPlane section;
-  std::vector<MeasuredPoint> points;  // at most two
-  std::size_t chosen_step = 0;        // in the trail of the last of them
+  std::vector<MeasuredPoint> points;       // at most two
+  std::vector<csgcore::Vec3> last_points;  // of the last three clicks, or fewer
+  std::size_t chosen_step = 0;             // in the trail of the last of them
   std::optional<HoveredLeaf> hovered;
   bool shows_place = true;
   bool shows_messages = true;
@@ -117,14 +118,24 @@ struct State {
   /// Returns the place that the editor is to show: the chosen one of the last measured point, or
   /// that under the mouse; null if there is none.
   const frontend::SourcePlace* place_to_open() const;
-  /// Turns the section on, across the middle of the design. The side towards the eye is cut off.
-  void set_section_axis(uint8_t axis);
-  /// Moves the section plane along its axis, by a share of the design's size, if it is on; within
+  /// Turns the section on, with that unit normal, across the middle of the design. The side towards
+  /// the eye is cut off.
+  void set_section_normal(const csgcore::Vec3& normal);
+  /// Does the same with a plane through a point.
+  void set_section(const csgcore::Vec3& normal, const csgcore::Vec3& point);
+  /// Moves the section plane along its normal, by a share of the design's size, if it is on; within
   /// the design's box.
   void move_section(double share);
+  /// Turns the section plane about the axes of the picture and the point of it that is nearest to
+  /// the middle of the design, if it is on.
+  void turn_section(double about_x_deg, double about_y_deg);
+  /// Returns that point. Precondition: there is a design.
+  csgcore::Vec3 section_middle() const;
 
  private:
   void ask_for_model();
+  void cut_along_face();
+  void cut_through_points();
 
   /// bounds() and of what design, since that takes some milliseconds.
   mutable std::pair<std::shared_ptr<const frontend::ImportedDesign>, csgcore::Box> bounds_;

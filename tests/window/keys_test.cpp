@@ -256,7 +256,7 @@ std::string cut_block(double position, bool keeps_lower) {
 }
 
 TEST_F(Keys, SectionPlane) {
-  start();
+  start({"--camera=0,0,0,0,0,0,100", "--projection=o"});  // x to the right, the plane edge-on
   const Picture whole = shown();
   key("x");
   const json cut = next();
@@ -290,6 +290,21 @@ TEST_F(Keys, SectionPlaneUnderTheMouse) {
   expect_shown(drawn(design, cut["camera"]), {0, 150, kWidth, 100});
   drag(1, 200, 200, 390, 200, "ctrl");  // no further than the design's end
   EXPECT_NEAR(next()["section_position"].get<double>(), 5, 1e-12);
+  drag(1, 200, 200, 250, 200, "ctrl+shift");
+  const json turned = next();
+  EXPECT_EQ(turned["camera"], first_["camera"]);
+  EXPECT_LT(turned["section_normal"][0].get<double>(), 0.95) << "it turns about y";
+  EXPECT_NEAR(turned["section_normal"][1].get<double>(), 0, 1e-12);
+}
+
+TEST_F(Keys, SectionPlaneAlongAMeasuredFace) {
+  start({"--camera=0,0,0,0,0,0,100", "--projection=o"});  // from above
+  click(kWidth / 2 + 20, kHeight / 2 + 12);
+  next();
+  key("shift+f");
+  const json cut = next();
+  EXPECT_TRUE(cut["section_on"]);
+  EXPECT_EQ(cut["section_normal"], json({0, 0, 1}));
 }
 
 }  // namespace

@@ -19,6 +19,8 @@
 #include "frontend/parser.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render.hpp"
+#include "section_hatch.hpp"
+#include "section_plane.hpp"
 #include "support/models.hpp"
 
 namespace window {
@@ -69,13 +71,24 @@ csgcore::Image command_picture(const PaintOrder& order) {
   frontend::RenderSettings settings = order.settings;
   settings.measured_channels = true;
   frontend::RenderStats stats;
-  const csgcore::Scene& scene = order.design->scene;
-  csgcore::Image image = frontend::render(
-      order.section.is_on ? cut_open(scene, order.section, order.design->view_box) : scene, view,
-      settings, stats);
+  CutScene scene{order.design->scene, {}};
+  if (order.section.is_on) {
+    scene = cut_open(scene.scene, order.section, order.design->view_box, order.design->parts);
+  }
+  csgcore::Image image = frontend::render(scene.scene, view, settings, stats);
   frontend::show_channel(image, settings.show, settings.scheme.background);
-  frontend::draw_overlays(image, view, order.navigation.camera(), order.overlays, settings.scheme,
-                          *order.design);
+  const auto draw_overlays = [&](const frontend::Overlays& overlays) {
+    frontend::draw_overlays(image, view, order.navigation.camera(), overlays, settings.scheme,
+                            *order.design);
+  };
+  frontend::Overlays others = order.overlays;
+  others.edges = false;
+  draw_overlays({.edges = order.overlays.edges});
+  if (settings.show == frontend::Show::kSurface) {
+    draw_section_faces(image, view, order.section, scene.parts,
+                       hatch_spacing(view, order.navigation.camera().distance));
+  }
+  draw_overlays(others);
   return image;
 }
 
@@ -144,7 +157,7 @@ TEST_F(PainterTest, DrawsWhatTheCommandDraws) {
   }
   order.overlays = {true, true, true, true};
   check();
-  order.section = {false, 1, true, 2.5};  // off
+  order.section = {false, {0, 1, 0}, true, 2.5};  // off
   check();
   order.settings.samples = 4;
   order.settings.shading = frontend::Shading::kPhong;
@@ -212,7 +225,7 @@ TEST_F(PainterTest, DrawsWhatIsEmpty) {
         order.settings.show = show;
         order.settings.all_stats = true;
         order.overlays = {true, true, true, true};
-        order.section = {is_cut, 0, false, 0.5};
+        order.section = {is_cut, {1, 0, 0}, false, 0.5};
         painter.order(order);
         const Painting painting = next_final();
         EXPECT_EQ(painting.error, "");
@@ -454,7 +467,7 @@ TEST_F(ProbeTest, TheCutNamesTheLeafThatIsCut) {
   Painter& painter = this->painter();
   const std::string shell = "difference() {\n" + window_test::kBall + "sphere(r = 3);\n}\ncube(1);";
   Probe probe = probe_of(shell, 90, 60);  // at x = 3.3
-  probe.order.section = {true, 2, false, 1.5};
+  probe.order.section = {true, {0, 0, 1}, false, 1.5};
   painter.probe(probe);
   const Finding finding = next_finding();
   EXPECT_TRUE(finding.is_cut);

@@ -137,7 +137,11 @@ TEST_P(Panels, AreWhole) {
   with("parameters", state_.shows_parameters);
   with("animation", state_.shows_animation);
   alone(
-      "section", [&] { state_.set_section_axis(0); }, [&] { state_.section.is_on = false; });
+      "section",
+      [&] {
+        state_.set_section_normal({1, 0, 0});
+      },
+      [&] { state_.section.is_on = false; });
   alone(
       "place", [&] { measure(); }, [&] { state_.points.clear(); });
   alone(
@@ -170,7 +174,7 @@ TEST_P(Panels, TheHelpIsShownWithoutScrolling) {
 
 TEST_P(Panels, DoNotOverlap) {
   if (GetParam().height / GetParam().scale < 400) GTEST_SKIP() << "too low for all of them";
-  state_.set_section_axis(0);
+  state_.set_section_normal({1, 0, 0});
   state_.shows_parameters = state_.shows_animation = true;
   say();
   draw();

@@ -201,7 +201,7 @@ TEST_F(StateTest, APlaneStartsAcrossTheMiddle) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.apply(kAcross[axis]);
     EXPECT_TRUE(state_.section.is_on);
-    EXPECT_EQ(state_.section.axis, axis);
+    EXPECT_EQ(state_.section.axis(), axis);
     EXPECT_EQ(state_.section.position, Vec3(5, 10, 20)[axis]);
   }
   state_.apply(Command::kSection);
@@ -209,7 +209,60 @@ TEST_F(StateTest, APlaneStartsAcrossTheMiddle) {
   state_.design = nullptr;
   state_.apply(Command::kSection);
   EXPECT_TRUE(state_.section.is_on);
-  EXPECT_EQ(state_.section.axis, 2);
+  EXPECT_EQ(state_.section.axis(), 2);
+}
+
+MeasuredPoint at(const Vec3& position, const Surface& surface = {}) {
+  MeasuredPoint point;
+  point.position = position;
+  point.surface = surface;
+  return point;
+}
+
+TEST_F(StateTest, APlaneIsLaidAlongTheMeasuredFace) {
+  state_.apply(Command::kSectionFace);
+  EXPECT_FALSE(state_.section.is_on);
+  EXPECT_NE(state_.notice, "");
+  const Vec3 normal(0.6, 0, 0.8);
+  state_.measure(at({1, 2, 3}, {Surface::Kind::kPlane, {1, 2, 3}, normal}));
+  state_.apply(Command::kSectionFace);
+  EXPECT_TRUE(state_.section.is_on);
+  EXPECT_EQ(state_.section.normal, normal);
+  EXPECT_NEAR(state_.section.position, glm::dot(normal, Vec3(5, 10, 20)), 1e-12);
+}
+
+TEST_F(StateTest, APlaneIsLaidThroughTheLastThreePoints) {
+  state_.measure(at({9, 9, 9}));
+  state_.measure(at({1, 0, 0}));
+  state_.apply(Command::kSectionPoints);
+  EXPECT_FALSE(state_.section.is_on) << "there are only two";
+  state_.measure(at({0, 1, 0}));
+  state_.measure(at({0, 0, 1}));
+  state_.apply(Command::kSectionPoints);
+  ASSERT_TRUE(state_.section.is_on);
+  for (const Vec3& point : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    EXPECT_NEAR(glm::dot(point, state_.section.normal), state_.section.position, 1e-12);
+  }
+  state_.section.is_on = false;
+  for (const double x : {1.0, 2.0, 3.0}) state_.measure(at({x, x, x}));
+  state_.apply(Command::kSectionPoints);
+  EXPECT_FALSE(state_.section.is_on) << "they lie on a line";
+}
+
+TEST_F(StateTest, APlaneTurnsAboutItsMiddle) {
+  state_.apply(Command::kSectionX);
+  state_.section.position = 7;
+  const Vec3 middle = state_.section_middle();
+  EXPECT_EQ(middle, Vec3(7, 10, 20));
+  state_.turn_section(20, 50);
+  EXPECT_NEAR(glm::length(state_.section.normal), 1, 1e-12);
+  EXPECT_LT(std::abs(state_.section.normal.x), 0.95);
+  EXPECT_NEAR(glm::dot(middle, state_.section.normal), state_.section.position, 1e-12);
+  state_.turn_section(0, 0);
+  const Vec3 normal = state_.section.normal;
+  state_.turn_section(0, 30);
+  EXPECT_NEAR(glm::dot(normal, state_.navigation.view({1, 1}).up),
+              glm::dot(state_.section.normal, state_.navigation.view({1, 1}).up), 1e-12);
 }
 
 TEST_F(StateTest, EscapeForgetsPointsAndHelp) {

@@ -33,6 +33,8 @@ struct ImportedDesign {
   /// it: the index of the node that the primitive is made of, which is a primitive node, or the
   /// root of a subtree that is one solid or figure (a hull, an extrusion, an offset).
   std::vector<uint32_t> places;
+  /// With `places`: by Primitive::id, the part of the assembly that the node is in, from 0 on.
+  std::vector<uint32_t> parts;
   std::vector<Warning> warnings;
   /// The files that its nodes name, and the fonts that it brings along if it has text, whether or
   /// not they are there.

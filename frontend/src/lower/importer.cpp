@@ -10,6 +10,7 @@
 #include "base/geometry_dialect.hpp"
 #include "frontend/stop.hpp"
 #include "heal/healing.hpp"
+#include "lower/assembly_parts.hpp"
 #include "lower/collector.hpp"
 #include "lower/composition.hpp"
 #include "lower/leaf_boxes.hpp"
@@ -387,6 +388,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   design.warnings = collected.problems.warnings(tree);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
+  design.parts = assembly_parts(*tree.nodes, collected.selected, design.places);
   set_flat_outlines(collected, options.picture, design);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,

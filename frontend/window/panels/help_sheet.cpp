@@ -25,7 +25,7 @@ constexpr const char* kMouse[][2] = {
     {"Right click", "copy what is measured or said; on a message: that"},
     {"Rest", "name the leaf under the mouse"},
     {"Double click", "centre on the point"},
-    {"Ctrl + left drag", "drag the section plane"},
+    {"Ctrl + left drag", "drag the section plane; with shift: turn it"},
     {"Arrows", "turn; with shift: pan"},
     {"+, -", "zoom"},
     {"Page up, page down", "move the section plane"},
