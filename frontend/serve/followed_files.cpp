@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <thread>
 #include <utility>
 
 #include "base/descriptor.hpp"
 #include "follow/file_watch.hpp"
+#include "language/file_signature.hpp"
 
 namespace serve {
 namespace {
@@ -42,12 +44,12 @@ class FollowedFiles::Watch {
     thread_.join();
   }
 
-  void set(std::vector<std::string> paths) {
-    std::sort(paths.begin(), paths.end());
-    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+  void set(const std::vector<std::string>& read, const std::vector<std::string>& missing) {
     {
       const std::lock_guard lock(mutex_);
-      paths_ = std::move(paths);
+      read_ = {read.begin(), read.end()};
+      missing_ = {missing.begin(), missing.end()};
+      is_set_ = true;
     }
     wake_.raise();
   }
@@ -61,24 +63,33 @@ class FollowedFiles::Watch {
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       wait();
-      take_paths();
+      const bool is_gone = take_paths();
       watch_.update();
       const auto settled = watch_.settled_at();
-      if (!settled || Clock::now() < *settled || stop.stop_requested()) continue;
+      const bool has_changed = is_gone || (settled && Clock::now() >= *settled);
+      if (!has_changed || stop.stop_requested()) continue;
       watch_.forget_changes();
       on_change_();
     }
   }
 
-  void take_paths() {
-    std::optional<std::vector<std::string>> paths;
+  /// Watches what was set. Returns whether a file was read that is gone already.
+  bool take_paths() {
+    std::set<std::string> read, all;
     int64_t since_ns = 0;
     {
       const std::lock_guard lock(mutex_);
-      paths = std::exchange(paths_, std::nullopt);
+      if (!std::exchange(is_set_, false)) return false;
+      read = read_;
+      all = missing_;
       since_ns = reading_since_ns_;
     }
-    if (paths) watch_.set_files(*paths, since_ns);
+    all.insert(read.begin(), read.end());
+    watch_.set_files({all.begin(), all.end()}, since_ns);
+    const std::set<std::string> before = std::exchange(watched_, read);
+    return std::ranges::any_of(read, [&](const std::string& path) {
+      return !before.contains(path) && !language::FileSignature(path).exists();
+    });
   }
 
   /// Waits until there may be something to do.
@@ -101,10 +112,12 @@ class FollowedFiles::Watch {
 
   const std::function<void()> on_change_;
   frontend::Event wake_;
-  std::mutex mutex_;                               // of the following
-  std::optional<std::vector<std::string>> paths_;  // that are to be watched from now on
+  std::mutex mutex_;                      // of the following
+  std::set<std::string> read_, missing_;  // that are to be watched from now on
+  bool is_set_ = false;                   // they have been set, and not been taken
   int64_t reading_since_ns_ = 0;
-  FileWatch watch_{false, kPollInterval};  // used by the thread alone
+  std::set<std::string> watched_;          // files that were read; used by the thread alone
+  FileWatch watch_{false, kPollInterval};  // the same
   std::jthread thread_;                    // the last member: it uses the others
 };
 
@@ -112,7 +125,10 @@ FollowedFiles::FollowedFiles(std::function<void()> on_change)
     : watch_(std::make_unique<Watch>(std::move(on_change))) {}
 FollowedFiles::~FollowedFiles() = default;
 
-void FollowedFiles::set(std::vector<std::string> paths) { watch_->set(std::move(paths)); }
+void FollowedFiles::set(const std::vector<std::string>& read,
+                        const std::vector<std::string>& missing) {
+  watch_->set(read, missing);
+}
 void FollowedFiles::note_reading() { watch_->note_reading(); }
 
 }  // namespace serve

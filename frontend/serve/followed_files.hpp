@@ -17,8 +17,9 @@ class FollowedFiles {
 
   // These may be called by any thread, and do not wait.
 
-  /// Watches these files from now on, by their absolute paths. They may be missing.
-  void set(std::vector<std::string> paths);
+  /// Watches these files from now on, by their absolute paths: those that were read, and those that
+  /// were looked for and not there.
+  void set(const std::vector<std::string>& read, const std::vector<std::string>& missing);
   /// To be called before files are read that set() will name: what changes from now on counts.
   void note_reading();
 

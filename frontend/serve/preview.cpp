@@ -309,9 +309,13 @@ bool Preview::probe(uint64_t number, const window::Navigation& navigation,
 }
 
 void Preview::save_picture(uint64_t number, std::string path) {
+  std::vector<frontend::NamedPath> inputs{{"the design", path_}};
+  if (reading_)
+    for (const std::string& file : reading_->files)
+      inputs.push_back({"a file of the design", file});
   {
     const std::lock_guard lock(mutex_);
-    savings_.push_back({number, std::move(path)});
+    savings_.push_back({number, std::move(path), std::move(inputs)});
   }
   order_picture();
 }
@@ -494,7 +498,6 @@ PreviewFrame Preview::frame_of(const window::Painting& painting) const {
 /// Writes the picture to all files that are to have it.
 void Preview::save(const window::Painting& painting) {
   std::vector<Saving> due;
-  std::vector<frontend::NamedPath> inputs{{"the design", path_}};
   {
     const std::lock_guard lock(mutex_);
     const auto is_due = [&](const Saving& saving) {
@@ -507,7 +510,7 @@ void Preview::save(const window::Painting& painting) {
     FileOutcome outcome{saving.number, {}};
     try {
       const frontend::NamedPath picture{"a picture", saving.path};
-      frontend::check_outputs_differ({&picture, 1}, inputs);
+      frontend::check_outputs_differ({&picture, 1}, saving.inputs);
       const frontend::PendingOutput output{
           saving.path,
           frontend::encode_picture(painting.image, frontend::picture_format(saving.path))};

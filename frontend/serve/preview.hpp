@@ -147,7 +147,8 @@ class Preview {
   struct Saving {
     uint64_t number;
     std::string path;
-    uint64_t order = 0;  // whose final picture is written; 0: none yet
+    std::vector<frontend::NamedPath> inputs;  // which are not to be overwritten
+    uint64_t order = 0;                       // whose final picture is written; 0: none yet
   };
 
   void read_designs(const std::stop_token& stop);

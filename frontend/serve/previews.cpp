@@ -1,7 +1,10 @@
 #include "previews.hpp"
 
+#include <malloc.h>
+
 #include <atomic>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "frontend/error.hpp"
@@ -115,11 +118,14 @@ void Previews::open(const Json& params, const Reply& reply) {
       tell_news(number);
     });
   };
-  Open& opened = open_[number];
-  opened.key = key;
-  opened.uri = uri;
-  opened.preview =
-      std::make_unique<Preview>(workspace_, workspace_.find(key), std::move(look), on_news);
+  try {
+    auto preview =
+        std::make_unique<Preview>(workspace_, workspace_.find(key), std::move(look), on_news);
+    open_[number] = {key, uri, std::move(preview), {}};
+  } catch (const std::system_error& error) {  // there are no more threads
+    workspace_.unfollow(key);
+    throw failed(error.what());
+  }
   reply.give({{"preview", number}});
 }
 
@@ -129,6 +135,7 @@ void Previews::close(uint64_t number, Open& open, const Json&, const Reply& repl
   const std::string key = open.key;
   open_.erase(number);
   workspace_.unfollow(key);
+  malloc_trim(0);  // what its pictures have taken goes back to the system
   reply.give(nullptr);
 }
 

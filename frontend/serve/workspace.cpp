@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -114,7 +115,7 @@ Evaluated evaluate(const Document& document, const TextOverlay& overlay,
   result.version = document.version;
   if (!document.problem.empty()) {
     result.said.push_back({language::MessageGroup::kError, document.problem});
-    result.files_read = {document.path};
+    result.lookups = {document.path};
     return result;
   }
   language::EvaluationOptions options;
@@ -262,15 +263,14 @@ void Workspace::notice_files() {
 /// Watches what the followed documents have read from files.
 void Workspace::watch_files() {
   if (!files_) return;
-  std::vector<std::string> paths;
+  std::vector<std::string> read, missing;
   for (const auto& [key, document] : documents_) {
     if (document->followers == 0 || !document->evaluated) continue;
-    for (const auto* list : {&document->evaluated->files_read, &document->evaluated->lookups}) {
-      for (const std::string& path : *list)
-        if (!overlay_->find(path)) paths.push_back(path);
-    }
+    const auto is_file = [this](const std::string& path) { return !overlay_->find(path); };
+    std::ranges::copy_if(document->evaluated->files_read, std::back_inserter(read), is_file);
+    std::ranges::copy_if(document->evaluated->lookups, std::back_inserter(missing), is_file);
   }
-  files_->set(std::move(paths));
+  files_->set(read, missing);
 }
 
 void Workspace::stop(const std::string& key) {

@@ -524,6 +524,12 @@ TEST(Preview, SavesThePictureThatIsShown) {
                          [](char a, std::byte b) { return static_cast<std::byte>(a) == b; }));
   EXPECT_EQ(save(client.folder / "b.exr")["path"], client.folder / "b.exr");
   EXPECT_TRUE(client.folder.has("b.exr"));
+  client.folder.write("surface.png", "no picture");
+  client.change("cube(5); surface(\"surface.png\");");
+  while (client.design()["version"] != 2) {
+  }
+  EXPECT_EQ(save("surface.png")["code"], -32803);  // the design reads it
+  EXPECT_EQ(client.folder.read("surface.png"), "no picture");
   EXPECT_EQ(save("a.jpg")["code"], -32602);
   EXPECT_EQ(save("")["code"], -32602);
   EXPECT_EQ(save(client.folder / "none/a.png")["code"], -32803);
