@@ -50,14 +50,14 @@ panelTest('opens and follows each save', async (panel) => {
   panel.write(box.replace('width = 20', 'width = 30'));
   await panel.frame({ number: first.number, version: first.version + 1 });
   assert.notEqual(await panel.pixels(), before);
-  assert.match(await panel.text('.status'), /560 × 420, \d+(\.\d)? ms/);
+  assert.match(await panel.text('.status'), /600 × 450, \d+(\.\d)? ms/);
 });
 
 panelTest('the mouse turns, pans and zooms', async (panel, page) => {
   let shown = await panel.frame();
   const seen = [await panel.pixels()];
   const drag = async (button: 'left' | 'right' | 'middle') => {
-    await page.mouse.move(280, 210);
+    await page.mouse.move(300, 225);
     await page.mouse.down({ button });
     await page.mouse.move(330, 230, { steps: 5 });
     await page.mouse.up({ button });
@@ -134,13 +134,13 @@ panelTest('a click measures, names the place and opens its line', async (panel, 
   await panel.frame();
   await page.keyboard.press('4');
   await panel.frame();
-  await page.mouse.click(280, 210);
+  await page.mouse.click(300, 225);
   const card = page.locator('.card');
   await card.waitFor();
   assert.match(await card.innerText(), /cube[^]*normal \[0, 0, 1\][^]*design\.scad:14/);
   await page.locator('.card button.link').first().click();
   await page.locator('.line.revealed', { hasText: 'tomato' }).waitFor();
-  await page.mouse.click(210, 260);
+  await page.mouse.click(200, 260);
   await page.locator('.card .relation').first().waitFor();
 });
 
@@ -196,7 +196,7 @@ panelTest('a section plane cuts the design open', async (panel, page) => {
   shown = await panel.frame(shown);
   await page.keyboard.press('PageUp');
   shown = await panel.frame(shown);
-  await page.mouse.move(280, 210);
+  await page.mouse.move(300, 225);
   await page.keyboard.down('Control');
   await page.mouse.down();
   await page.mouse.move(310, 190, { steps: 4 });

@@ -53,7 +53,7 @@ export class Panel {
       });
       server.once('exit', (code) => reject(new Error(`the server ended with ${code}`)));
     });
-    const context = await browser.newContext({ viewport: { width: 560, height: 420 }, ...options });
+    const context = await browser.newContext({ viewport: { width: 600, height: 450 }, ...options });
     const page = await context.newPage();
     const shown = new Panel(page, folder, server);
     await options.before?.(page);
