@@ -163,7 +163,7 @@ Compositor::Compositor(Image& image, std::span<const float> depth, double scene_
   const uint32_t squares_down = (image.height_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px;
   squares_.assign(size_t{squares_across_} * squares_down,
                   {kNothing, kNothing, kNoLayer, false, true});
-  if (surfaces.order == Translucency::kDepth) fragments_.resize(squares_.size());
+  if (surfaces.order == Translucency::kDepth) kept_.resize(squares_.size());
 }
 
 size_t Compositor::square_at(uint32_t x, uint32_t y) const {
@@ -318,7 +318,7 @@ uint32_t Compositor::shown(uint32_t turn, const PixelBlock& block,
 void Compositor::draw(uint32_t turn, const PixelBlock& block,
                       const csgcore::SurfacePixels& pixels) {
   const Turn& own = turns_[turn];
-  if (!fragments_.empty()) return keep(turn, block, pixels);
+  if (!kept_.empty()) return keep(turn, block, pixels);
   for_each_row(block, stride_px_, [&](uint32_t first, size_t index) {
     const uint32_t drawn = block.pixels >> first & kRowPixels;
     const size_t row = block.y + first / PixelBlock::kWidth_px;
@@ -341,7 +341,7 @@ void Compositor::mark_stale(const PixelBlock& block) {
 void Compositor::keep(uint32_t turn, const PixelBlock& block,
                       const csgcore::SurfacePixels& pixels) {
   const PreparedLayer& layer = *turns_[turn].layer;
-  std::vector<Fragment>& kept = fragments_[square_at(block.x, block.y)];
+  Kept& kept = kept_[square_at(block.x, block.y)];
   for (uint32_t left = block.pixels; left != 0; left &= left - 1) {
     const auto pixel = static_cast<uint32_t>(std::countr_zero(left));
     const float opacity = std::min(layer.opacity(pixels.id[pixel]), 1.0f);
@@ -349,11 +349,12 @@ void Compositor::keep(uint32_t turn, const PixelBlock& block,
     const uint32_t x = block.x + pixel % PixelBlock::kWidth_px;
     const uint32_t y = block.y + pixel / PixelBlock::kWidth_px;
     const uint32_t in_square = y % kSurfaceSquare_px * kSurfaceSquare_px + x % kSurfaceSquare_px;
-    kept.push_back(
+    kept.fragments.push_back(
         {pixels.z[pixel], opacity, pixels.rgb[pixel], static_cast<uint8_t>(in_square), turn});
     float& depth = depth_[size_t{y} * stride_px_ + x];
     if (opacity == 1) depth = std::min(depth, pixels.z[pixel]);
   }
+  if (kept.fragments.size() >= kept.to_sort_at) drop_hidden(block.x, block.y);
   mark_stale(block);
 }
 
@@ -370,16 +371,67 @@ bool Compositor::is_below(const Fragment& a, const Fragment& b) const {
   return rank(a) < rank(b);
 }
 
+namespace {
+
+/// Surfaces behind which less than this share of the light comes through count as opaque: less than
+/// half a level of a channel.
+constexpr float kDark = 0x1p-10f;
+
+/// Calls visit(pixel in the square, its fragments from the furthest to the nearest) for each pixel
+/// that has any.
+template <typename Fragments, typename Visit>
+void for_each_pixel(Fragments& fragments, const Visit& visit) {
+  std::ranges::sort(fragments, [](const auto& a, const auto& b) {
+    return std::tuple(a.pixel, -a.z, a.opacity) < std::tuple(b.pixel, -b.z, b.opacity);
+  });
+  for (std::span rest(fragments); !rest.empty();) {
+    const uint32_t pixel = rest.front().pixel;
+    const auto end = std::ranges::find_if(rest, [&](const auto& f) { return f.pixel != pixel; });
+    const auto count = static_cast<size_t>(end - rest.begin());
+    visit(pixel, rest.first(count));
+    rest = rest.subspan(count);
+  }
+}
+
+}  // namespace
+
+/// Returns those fragments of a pixel that can be seen. `fragments` go from the furthest to the
+/// nearest. Makes `nearest_opaque` the nearest depth at which no light comes through.
+std::span<Compositor::Fragment> Compositor::seen(std::span<Fragment> fragments,
+                                                 float& nearest_opaque) const {
+  float light = 1;
+  for (auto fragment = fragments.rbegin(); fragment != fragments.rend(); ++fragment) {
+    light *= 1 - fragment->opacity;
+    if (light > kDark) continue;
+    nearest_opaque = std::min(nearest_opaque, fragment->z);
+    break;
+  }
+  const auto first = std::ranges::find_if(fragments, [&](const Fragment& fragment) {
+    return fragment.z - reach(fragment.z) <= nearest_opaque;
+  });
+  return fragments.subspan(static_cast<size_t>(first - fragments.begin()));
+}
+
+/// Drops what cannot be seen in the square of the pixel, however many surfaces follow.
+void Compositor::drop_hidden(uint32_t x, uint32_t y) {
+  x -= x % kSurfaceSquare_px;
+  y -= y % kSurfaceSquare_px;
+  Kept& kept = kept_[square_at(x, y)];
+  std::vector<Fragment> left;
+  for_each_pixel(kept.fragments, [&](uint32_t pixel, std::span<Fragment> fragments) {
+    const size_t row = y + pixel / kSurfaceSquare_px, column = x + pixel % kSurfaceSquare_px;
+    const auto those = seen(fragments, depth_[row * stride_px_ + column]);
+    left.insert(left.end(), those.begin(), those.end());
+  });
+  kept.fragments = std::move(left);
+  kept.to_sort_at = std::max(kFewFragments, 2 * kept.fragments.size());
+}
+
 /// Blends what the pixel shows; `fragments` go from the furthest to the nearest.
-void Compositor::blend_pixel(std::span<Fragment> fragments, float nearest_opaque,
-                             std::array<uint8_t, 3>& rgb) const {
+void Compositor::blend_pixel(std::span<Fragment> fragments, std::array<uint8_t, 3>& rgb) const {
   std::array<float, 3> color;
   std::ranges::copy(rgb, color.begin());
-  const auto is_hidden = [&](const Fragment& fragment) {
-    return fragment.z - reach(fragment.z) > nearest_opaque;
-  };
-  auto first = std::ranges::find_if_not(fragments, is_hidden);
-  while (first != fragments.end()) {
+  for (auto first = fragments.begin(); first != fragments.end();) {
     auto last = first + 1;
     while (last != fragments.end() && (last - 1)->z - last->z <= reach(last->z)) ++last;
     std::sort(first, last, [this](const auto& a, const auto& b) { return is_below(a, b); });
@@ -395,23 +447,16 @@ void Compositor::blend_pixel(std::span<Fragment> fragments, float nearest_opaque
 }
 
 void Compositor::blend_square(uint32_t x, uint32_t y) {
-  std::vector<Fragment> kept = std::exchange(fragments_[square_at(x, y)], {});
-  std::ranges::sort(kept, [](const Fragment& a, const Fragment& b) {
-    return a.pixel != b.pixel ? a.pixel < b.pixel : a.z > b.z;
+  Kept kept = std::exchange(kept_[square_at(x, y)], {});
+  for_each_pixel(kept.fragments, [&](uint32_t pixel, std::span<Fragment> fragments) {
+    const size_t row = y + pixel / kSurfaceSquare_px, column = x + pixel % kSurfaceSquare_px;
+    blend_pixel(seen(fragments, depth_[row * stride_px_ + column]),
+                image_.rgb[row * image_.width_px + column]);
   });
-  for (std::span<Fragment> rest(kept); !rest.empty();) {
-    const uint32_t pixel = rest.front().pixel;
-    const auto end = std::ranges::find_if(rest, [&](const auto& f) { return f.pixel != pixel; });
-    const auto count = static_cast<size_t>(end - rest.begin());
-    const uint32_t row = y + pixel / kSurfaceSquare_px, column = x + pixel % kSurfaceSquare_px;
-    blend_pixel(rest.first(count), depth_[size_t{row} * stride_px_ + column],
-                image_.rgb[size_t{row} * image_.width_px + column]);
-    rest = rest.subspan(count);
-  }
 }
 
 void Compositor::end(const csgcore::PixelArea& area) {
-  if (fragments_.empty()) return;
+  if (kept_.empty()) return;
   for (uint32_t y = area.y; y < area.y + area.height; y += kSurfaceSquare_px) {
     for (uint32_t x = area.x; x < area.x + area.width; x += kSurfaceSquare_px) blend_square(x, y);
   }

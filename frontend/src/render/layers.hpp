@@ -141,10 +141,18 @@ class Compositor final : public csgcore::SurfaceSink {
     uint32_t turn;
   };
 
+  /// The fragments of a square.
+  struct Kept {
+    std::vector<Fragment> fragments;
+    size_t to_sort_at = kFewFragments;  // once there are so many, hidden ones are dropped
+  };
+  static constexpr size_t kFewFragments = 2048;
+
   void keep(uint32_t turn, const csgcore::PixelBlock& block, const csgcore::SurfacePixels& pixels);
+  void drop_hidden(uint32_t x, uint32_t y);
+  std::span<Fragment> seen(std::span<Fragment> fragments, float& nearest_opaque) const;
   void blend_square(uint32_t x, uint32_t y);
-  void blend_pixel(std::span<Fragment> fragments, float nearest_opaque,
-                   std::array<uint8_t, 3>& rgb) const;
+  void blend_pixel(std::span<Fragment> fragments, std::array<uint8_t, 3>& rgb) const;
   bool is_below(const Fragment& a, const Fragment& b) const;
   void mark_stale(const csgcore::PixelBlock& block);
 
@@ -166,7 +174,7 @@ class Compositor final : public csgcore::SurfaceSink {
                                       // nearest opaque surface
   std::vector<uint32_t> last_layer_;  // that is seen at each pixel; none if no part asks for it
   mutable std::vector<Square> squares_;
-  std::vector<std::vector<Fragment>> fragments_;  // by square; none in the file's order
+  std::vector<Kept> kept_;  // by square; none in the file's order
 };
 
 }  // namespace frontend

@@ -168,6 +168,37 @@ TEST_P(DepthOrder, IsThatOfTheSurfacesOfEachRay) {
   }
 }
 
+/// Of so many that the furthest are dropped before all are known.
+TEST_P(DepthOrder, OfManyLayersIsTheSame) {
+  std::mt19937 random(5);
+  const auto number = [&](int low, int high) {
+    return (low + static_cast<int>(random() % unsigned(64 * (high - low))) / 64.0);
+  };
+  std::vector<Part> parts;
+  for (int i = 0; i < 150; ++i) {
+    parts.push_back({Vec3(number(-2, 2), number(-2, 2), number(-9, 9)),
+                     number(2, 4),
+                     i % 2 == 0,
+                     {number(0, 1), number(0, 1), number(0, 1), i % 3 == 0 ? 0.75 : 0.0625}});
+  }
+  const Image image = draw(text_of(parts));
+  size_t wrong = 0;
+  for (uint32_t y = 0; y < view_.height_px; ++y) {
+    for (uint32_t x = 0; x < view_.width_px; ++x) {
+      const auto wanted = color_by_depth(parts, view_, x, y, settings_.scheme.background);
+      for (size_t i = 0; i < 3; ++i) {
+        wrong += std::abs(image.rgb[size_t{y} * view_.width_px + x][i] - wanted[i]) > 1.5;
+      }
+    }
+  }
+  // Where surfaces cross, they coincide for a pixel.
+  EXPECT_LT(wrong, image.rgb.size() / 100);
+  for (int permutation = 0; permutation < 3; ++permutation) {
+    std::shuffle(parts.begin(), parts.end(), random);
+    EXPECT_EQ(draw(text_of(parts)).rgb, image.rgb);
+  }
+}
+
 TEST_P(DepthOrder, DoesNotDependOnTheFiles) {
   // Whole numbers make faces coincide and parts touch.
   std::mt19937 random(11);
