@@ -287,7 +287,10 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
     if (order.settings.progress) order.settings.progress(stage, fraction);
   };
   const bool has_section = order.section.is_on && settings.show == Show::kSurface;
-  settings.measured_channels |= is_channel(settings.show) || order.overlays.any() || has_section;
+  const frontend::Overlays& overlays = order.overlays;
+  settings.measured_channels |= is_channel(settings.show) || overlays.axes || overlays.crosshairs ||
+                                overlays.edges || overlays.scales;
+  settings.depth_and_id = has_section || overlays.grid;
   const Clock::time_point start = Clock::now();
   try {
     load(order);
@@ -298,21 +301,22 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
                          ? renderer_.redraw(view, settings, painting.stats)
                          : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
-    const auto draw_overlays = [&](const frontend::Overlays& overlays) {
-      frontend::draw_overlays(painting.image, view, order.navigation.camera(), overlays,
+    const auto draw_overlays = [&](const frontend::Overlays& some) {
+      frontend::draw_overlays(painting.image, view, order.navigation.camera(), some,
                               settings.scheme, *order.design);
     };
     // What is hatched has its colour yet where edges are drawn, and hides no axes.
-    frontend::Overlays edges{.edges = order.overlays.edges,
-                             .edge_color = order.overlays.edge_color};
+    frontend::Overlays edges{.edges = overlays.edges, .edge_color = overlays.edge_color};
     draw_overlays(edges);
     if (has_section) {
       const double distance = order.navigation.camera().distance;
       draw_section_faces(painting.image, view, order.section, section_parts_,
                          hatch_spacing(order.navigation.view(order.size), distance));
     }
-    frontend::Overlays others = order.overlays;
+    frontend::Overlays others = overlays;
     others.edges = false;
+    others.grid &= settings.show == Show::kSurface;
+    others.grid_line_px = static_cast<double>(size.height_px) / order.size.height_px;
     draw_overlays(others);
     const auto traced = static_cast<double>(painting.stats.edit.pixels_traced);
     const bool is_most = traced >= kMostOfPicture * size.width_px * size.height_px;

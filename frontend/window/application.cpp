@@ -464,6 +464,7 @@ PaintOrder Application::wanted_picture() const {
   order.size = window_.size();
   order.settings = state_.look;
   order.overlays = state_.overlays;
+  order.overlays.has_gnomon = !state_.shows_orientation;
   order.is_moving = is_moving_;
   return order;
 }

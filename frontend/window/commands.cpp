@@ -41,6 +41,8 @@ constexpr CommandRow kRows[] = {
     {Command::kCrosshairs, Menu::kShow, "Crosshairs", "Ctrl+3", GLFW_KEY_3, kControl, false},
     {Command::kScales, Menu::kShow, "Scale marks", "", 0, kNone, false},
     {Command::kEdges, Menu::kShow, "Edges", "Ctrl+1", GLFW_KEY_1, kControl, false},
+    {Command::kGrid, Menu::kShow, "Ground grid", "G", GLFW_KEY_G, kNone, false},
+    {Command::kOrientation, Menu::kShow, "Axes in the corner", "", 0, kNone, false},
     {Command::kSurface, Menu::kShow, "Surface", "1", GLFW_KEY_1, kNone, true},
     {Command::kCells, Menu::kShow, "Cells", "2", GLFW_KEY_2, kNone, false},
     {Command::kDepth, Menu::kShow, "Depth", "3", GLFW_KEY_3, kNone, false},

@@ -33,6 +33,8 @@ enum class Command : uint8_t {
   kCrosshairs,
   kScales,
   kEdges,
+  kGrid,
+  kOrientation,
   kSurface,
   kCells,
   kDepth,

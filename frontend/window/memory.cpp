@@ -114,6 +114,8 @@ constexpr Switch kSwitches[] = {
     {"crosshairs", Command::kCrosshairs, Command::kCrosshairs, &GivenLook::view},
     {"scales", Command::kScales, Command::kScales, &GivenLook::view},
     {"edges", Command::kEdges, Command::kEdges, &GivenLook::view},
+    {"grid", Command::kGrid, Command::kGrid, &GivenLook::view},
+    {"orientation", Command::kOrientation, Command::kOrientation, nullptr},
     {"orthographic", Command::kOrthographic, Command::kPerspective, &GivenLook::projection},
     {"phong", Command::kPhongShading, Command::kOpenScadShading, &GivenLook::shading},
     {"studio", Command::kStudioShading, Command::kOpenScadShading, &GivenLook::shading},

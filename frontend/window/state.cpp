@@ -81,6 +81,10 @@ auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) 
       return &state.overlays.scales;
     case Command::kEdges:
       return &state.overlays.edges;
+    case Command::kGrid:
+      return &state.overlays.grid;
+    case Command::kOrientation:
+      return &state.shows_orientation;
     case Command::kMessages:
       return &state.shows_messages;
     case Command::kPlace:
@@ -127,6 +131,7 @@ State::State(const frontend::Options& options)
       language(options.import.language),
       name(options.input) {
   overlays.edge_color = frontend::EdgeColor::kContrast;
+  if (!options.given.view) overlays.grid = true;
 }
 
 void State::begin(const frontend::Options& options) {
@@ -138,6 +143,7 @@ void State::begin(const frontend::Options& options) {
   fresh.shows_place = shows_place;
   fresh.shows_messages = shows_messages;
   fresh.shows_status = shows_status;
+  fresh.shows_orientation = shows_orientation;
   fresh.shows_help = shows_help;
   fresh.shows_parameters = shows_parameters;
   fresh.recent_designs = std::move(recent_designs);

@@ -65,6 +65,7 @@ struct State {
   bool shows_place = true;
   bool shows_messages = true;
   bool shows_status = true;
+  bool shows_orientation = true;  // the directions of the axes, in the corner
   bool shows_help = false;
   bool enters_menus = false;  // a key has asked for the menu
   bool shows_menus = false;   // a menu is open, or keys walk along the menu bar

@@ -103,6 +103,9 @@ void LiveWindow::open(const std::string& design, const std::vector<std::string>&
   setup.environment["DISPLAY"] = display_->name();
   setup.environment["WAYLAND_DISPLAY"] = std::nullopt;
   std::filesystem::remove_all(folder_ / "fresh state");
+  // -o has no grid and no axes in the corner unless it is asked for them.
+  std::filesystem::create_directories(folder_ / "fresh state/scadray");
+  std::ofstream(folder_ / "fresh state/scadray/window") << "grid=off\norientation=off\n";
   setup.environment.try_emplace("XDG_STATE_HOME", folder_ / "fresh state");
   setup.errors = folder_ / "errors";
   program_ = std::make_unique<Process>(setup);

@@ -141,8 +141,9 @@ TEST_F(HabitsTest, AreRestored) {
   State state{frontend::Options{}};
   Memory memory(path());
   memory.note(habits_of(state), now_);
-  for (const Command command : {Command::kAxes, Command::kEdges, Command::kOrthographic,
-                                Command::kPhongShading, Command::kStatus, Command::kParameters}) {
+  for (const Command command :
+       {Command::kAxes, Command::kEdges, Command::kOrthographic, Command::kPhongShading,
+        Command::kStatus, Command::kParameters, Command::kGrid, Command::kOrientation}) {
     state.apply(command);
   }
   state.look.samples = 16;
@@ -166,6 +167,7 @@ TEST_F(HabitsTest, TheCommandLineWins) {
   const State state = restored(options);
   State plain{frontend::Options{}};
   plain.shows_place = false;
+  plain.overlays.grid = false;
   EXPECT_EQ(habits_of(state), habits_of(plain));
 }
 

@@ -13,10 +13,15 @@ namespace {
 
 using testing::HasSubstr;
 
+/// What -o does not draw unless it is asked for is switched off.
+const std::string kPlain = "grid=off\norientation=off\n";
+
 class OpenDesign : public LiveWindow {
  protected:
   OpenDesign() {
     setup_.environment["XDG_STATE_HOME"] = folder_ / "state";
+    std::filesystem::create_directories(folder_ / "state/scadray");
+    folder_.write("state/scadray/window", kPlain);
     folder_.write("block.csg", kBlock);
     folder_.write("row.csg", row_of(3));
   }
@@ -60,14 +65,13 @@ TEST_F(OpenDesign, ByTheDialogue) {
   folder_.write("row.csg", row_of(4));
   EXPECT_EQ(next()["primitives"], 4);
   close();
-  EXPECT_EQ(remembered(),
-            "recent=" + (folder_ / "row.csg") + "\nrecent=" + (folder_ / "block.csg") + "\n");
+  EXPECT_EQ(remembered(), kPlain + "recent=" + (folder_ / "row.csg") +
+                              "\nrecent=" + (folder_ / "block.csg") + "\n");
 }
 
 TEST_F(OpenDesign, ByTheMenuOfRecentOnes) {
-  std::filesystem::create_directories(folder_ / "state/scadray");
-  folder_.write("state/scadray/window",
-                "recent=" + (folder_ / "none.csg") + "\nrecent=" + (folder_ / "row.csg") + "\n");
+  folder_.write("state/scadray/window", kPlain + "recent=" + (folder_ / "none.csg") +
+                                            "\nrecent=" + (folder_ / "row.csg") + "\n");
   open_block();
   const Picture before = shown();
   // The block itself is the first.
@@ -132,9 +136,13 @@ TEST_F(OpenDesign, WhatIsSwitchedOnIsRemembered) {
   next();
   close();
   expect_drawn(folder_ / "block.csg", open_block(), {"--view=axes"});
+  key("g");
+  next();
   close();
+  EXPECT_THAT(remembered(), HasSubstr("grid=on\n"));
   // The command line wins, and is not remembered.
-  const std::vector<std::string> options = {"--view=edges", "--colorscheme=Metallic"};
+  const std::vector<std::string> options = {"--view=crosshairs", "--render",
+                                            "--colorscheme=Metallic"};
   expect_drawn(folder_ / "block.csg", open_block(options), options);
   close();
   EXPECT_THAT(remembered(), HasSubstr("axes=on\n"));

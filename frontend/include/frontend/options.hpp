@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/animated_picture.hpp"
 #include "frontend/camera.hpp"
 #include "frontend/design_file_options.hpp"
 #include "frontend/export_settings.hpp"
@@ -87,6 +88,7 @@ struct Options {
   /// The frames that are drawn: first_frame <= i < end_frame.
   uint32_t first_frame = 0;
   uint32_t end_frame = 1;
+  double fps = kDefaultFps;  // frames a second of animated pictures
   bool turns = false;  // the camera goes once around the design during them
   bool quiet = false;
   bool prints_echoes = false;      // what the design echoes goes to standard output

@@ -24,11 +24,17 @@ struct Overlays {
   bool edges = false;       // the edges of OpenSCAD's meshes; of what is smooth, its creases and
                             // outlines
   bool scales = false;      // marks and numbers on the axes; no effect without `axes`
+  bool grid = false;        // a faint grid on the ground, the plane z = 0
   EdgeColor edge_color = EdgeColor::kOpenScad;
+  bool has_gnomon = true;   // `axes` have the small set in the corner
+  double grid_line_px = 1;  // the width of the grid's lines: in a coarse picture less than a pixel
 
-  bool any() const { return axes || crosshairs || edges || scales; }
+  bool any() const { return axes || crosshairs || edges || scales || grid; }
   bool operator==(const Overlays&) const = default;
 };
+
+/// Returns the distance of the grid's lines, in world units: a power of ten.
+double grid_spacing(const csgcore::View& view, const Camera& camera);
 
 /// Draws the overlays in the scheme's colours, 1 px wide except for edges, where the model is not
 /// in front. The edges are drawn over what the image shows of `design`: a primitive of which it

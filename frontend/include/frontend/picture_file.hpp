@@ -21,11 +21,10 @@ Bytes encode_png(const csgcore::Image& image);
 /// Precondition: the image has its measured channels.
 Bytes encode_exr(const csgcore::Image& image);
 
-enum class PictureFormat : uint8_t { kPng, kExr };
+enum class PictureFormat : uint8_t { kPng, kExr, kGif, kWebp };
 
-inline Bytes encode_picture(const csgcore::Image& image, PictureFormat format) {
-  return format == PictureFormat::kPng ? encode_png(image) : encode_exr(image);
-}
+/// Encodes a picture; of a format that can hold several (animated_picture.hpp), as the only one.
+Bytes encode_picture(const csgcore::Image& image, PictureFormat format);
 
 /// Replaces `image.rgb` by a picture of the channel `show` (--show=depth|normals|id); misses get
 /// `background`. kSurface and kCells, which renderers draw, leave the image as it is. Depth: near

@@ -68,6 +68,7 @@ struct RenderSettings {
   double threshold_px = 0;         // --threshold ≥ 0; 0: no cell is dropped
   unsigned threads = 0;            // 0: as many as the machine has
   bool measured_channels = false;  // also fill Image's z, normal, position and id
+  bool depth_and_id = false;       // at least z and id
   /// Also fill those RenderStats that take extra work: T_S, T_R and S_R, for which OpenGL draws
   /// again.
   bool all_stats = false;

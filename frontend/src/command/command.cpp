@@ -16,6 +16,7 @@
 #include "command/outputs.hpp"
 #include "command/texts.hpp"
 #include "csgcore/workers.hpp"
+#include "frontend/animated_picture.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/design_version.hpp"
 #include "frontend/error.hpp"
@@ -76,11 +77,13 @@ class Run {
     if (wants_workers()) workers_.emplace();
     check_outputs();
     for (const std::string& warning : options_.warnings) say("warning", warning);
+    begin_animations();
     std::vector<PendingOutput> outputs;
     for (frame_ = options_.first_frame; frame_ < options_.end_frame; ++frame_) {
       start_ = Clock::now();
       draw_frame(outputs);
     }
+    finish_animations(outputs);
     if (!options_.stats_path.empty()) {
       outputs.push_back({options_.stats_path, bytes_of(to_json(stats_))});
     }
@@ -241,13 +244,33 @@ class Run {
       draw_flat_outlines(image, view, camera, design_, scheme);
     }
     draw_overlays(image, view, camera, options_.overlays, scheme, design_);
-    for (const Output& output : options_.outputs) {
-      outputs.push_back({path_of(output, options_, frame_), encode_picture(image, output.format)});
+    for (size_t i = 0; i < options_.outputs.size(); ++i) {
+      const Output& output = options_.outputs[i];
+      if (is_animated(output.format)) {
+        animations_[i]->add(image);
+      } else {
+        outputs.push_back(
+            {path_of(output, options_, frame_), encode_picture(image, output.format)});
+      }
     }
     stats_.width_px = image.width_px;
     stats_.height_px = image.height_px;
     stats_.encode_ms = ms_since(start);
     stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
+  }
+
+  void begin_animations() {
+    for (const Output& output : options_.outputs) {
+      animations_.push_back(is_animated(output.format)
+                                ? AnimationEncoder::make(output.format, options_.fps)
+                                : nullptr);
+    }
+  }
+
+  void finish_animations(std::vector<PendingOutput>& outputs) {
+    for (size_t i = 0; i < animations_.size(); ++i) {
+      if (animations_[i]) outputs.push_back({options_.outputs[i].path, animations_[i]->finish()});
+    }
   }
 
   const Options& options_;
@@ -261,15 +284,18 @@ class Run {
   bool is_exported_ = false;           // set anew for every frame
   std::vector<std::string> files_;     // files that the design was read from, for all frames
   std::vector<std::string> imported_;  // those that its nodes name, whether or not all are wanted
-  RunStats stats_;                     // of the frame
+  std::vector<std::unique_ptr<AnimationEncoder>> animations_;  // by output; null: it is none
+  RunStats stats_;                                             // of the frame
   ProgressLine progress_;
   std::optional<csgcore::Workers> workers_;
 };
 
 void print_info() {
-  std::printf("scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
-              SCADRAY_VERSION, SCADRAY_RENDERERS,
-              "scadray itself, or openscad (on PATH, or $SCADRAY_OPENSCAD)");
+  std::printf(
+      "scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR), GIF (giflib), WebP (libwebp)\nrenderers: "
+      "%s\n.scad by: %s\n",
+      SCADRAY_VERSION, SCADRAY_RENDERERS,
+      "scadray itself, or openscad (on PATH, or $SCADRAY_OPENSCAD)");
 }
 
 /// Runs scadray-gl in place of this program. Returns if that is not there and the CPU may draw.

@@ -31,7 +31,8 @@ constexpr Completion kViewList{Completion::Kind::kWordList, names_of<kViews>};
 // Where OpenSCAD has a long name of one letter for a short option, so have we.
 constexpr OptionRow kOpenScadOptions[] = {
     {"o,o", Takes::kTexts, "OUT",
-     "what to write: a picture (.png, .exr); the solid (.stl, .off, .obj, .3mf, .amf) or the plane "
+     "what to write: a picture (.png, .exr), or all of an animation (.gif, .webp); the solid "
+     "(.stl, .off, .obj, .3mf, .amf) or the plane "
      "figure (.svg, .dxf, .pdf); the evaluated design's tree (.csg) or messages (.echo), or its "
      "parameters (.param); or what the installed openscad writes (.wrl, .nef3, .ast, .term, .pov); "
      "- "
@@ -55,7 +56,7 @@ constexpr OptionRow kOpenScadOptions[] = {
      kOneOf<kProjections>},
     {"colorscheme", Takes::kText, "NAME", "colour scheme:", kAnyScheme},
     {"view", Takes::kText, "WHAT",
-     "axes, crosshairs, edges, scales, wireframe, with commas between; scales with axes, "
+     "axes, crosshairs, edges, grid, scales, wireframe, with commas between; scales with axes, "
      "wireframe with --render only",
      kViewList},
     {"animate", Takes::kText, "N",
@@ -144,6 +145,8 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kTranslucencies>},
     {"turn", Takes::kNothing, "",
      "the camera of --animate goes once around the design, about its vertical axis"},
+    {"fps", Takes::kText, "F",
+     "frames a second of an animation in one file (.gif, .webp), up to 50; default 20"},
     {"editor", Takes::kText, "COMMAND",
      "the window's editor, a command line with {file}, {line} and {column}, or one whose form is "
      "known (code, subl, emacsclient, gvim, kate …); default: $SCADRAY_EDITOR, $VISUAL, $EDITOR",

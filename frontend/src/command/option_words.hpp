@@ -23,7 +23,9 @@ template <typename Value>
 using Word = std::pair<const char*, Value>;
 
 constexpr Word<PictureFormat> kFormats[] = {{"png", PictureFormat::kPng},
-                                            {"exr", PictureFormat::kExr}};
+                                            {"exr", PictureFormat::kExr},
+                                            {"gif", PictureFormat::kGif},
+                                            {"webp", PictureFormat::kWebp}};
 /// Formats of texts, beside those of pictures.
 constexpr Word<TextKind> kTextKinds[] = {
     {"csg", TextKind::kCsg}, {"echo", TextKind::kEcho}, {"param", TextKind::kParam}};
@@ -56,11 +58,10 @@ constexpr Word<csgcore::Projection> kProjections[] = {
     {"p", csgcore::Projection::kPerspective},
     {"perspective", csgcore::Projection::kPerspective}};
 /// Each with what it draws; of a wireframe these are the edges that are seen.
-constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
-                                             {"crosshairs", &Overlays::crosshairs},
-                                             {"edges", &Overlays::edges},
-                                             {"scales", &Overlays::scales},
-                                             {"wireframe", &Overlays::edges}};
+constexpr Word<bool Overlays::*> kViews[] = {
+    {"axes", &Overlays::axes},     {"crosshairs", &Overlays::crosshairs},
+    {"edges", &Overlays::edges},   {"grid", &Overlays::grid},
+    {"scales", &Overlays::scales}, {"wireframe", &Overlays::edges}};
 constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
 constexpr Word<Shading> kShadings[] = {
     {"openscad", Shading::kOpenScad}, {"phong", Shading::kPhong}, {"studio", Shading::kStudio}};

@@ -167,7 +167,8 @@ PictureFormat picture_format(const std::string& path) {
   if (!format) {
     throw Error(
         path, {}, "is no picture",
-        "end it in .png or .exr, or in what a design is exported to (.stl, .off, .obj, .3mf, "
+        "end it in .png, .exr, .gif or .webp, or in what a design is exported to (.stl, .off, "
+        ".obj, .3mf, "
         ".amf, .svg, .dxf, .pdf, .csg, .echo, .param; by openscad .wrl, .nef3, .ast, .term, .pov), "
         "or give --export-format");
   }
@@ -286,11 +287,21 @@ void read_outputs(const Arguments& arguments, Options& options) {
   options.frames = arguments.number<uint32_t>("animate", 0, kMostFrames, 0);
   read_shard(arguments, options);
   options.turns = arguments.has("turn");
+  options.fps = arguments.number<double>("fps", kLeastFps, kMostFps, kDefaultFps,
+                                         "give frames a second, 0.1 to 50");
+  const bool has_animation = std::ranges::any_of(
+      options.outputs, [](const Output& output) { return is_animated(output.format); });
+  if (arguments.has("fps") && !has_animation) {
+    options.warnings.push_back("--fps has no effect without -o of a .gif or .webp");
+  }
   if (options.turns && options.frames == 0) {
     fail("--turn without --animate", "give the number of pictures, --animate=36 for example");
   }
-  if (options.frames > 0 && to_stdout > 0) {
-    fail("--animate does not go to standard output", "give -o a file's name");
+  const auto animations = std::ranges::count_if(options.outputs, [](const Output& output) {
+    return output.path == "-" && is_animated(output.format);
+  });
+  if (options.frames > 0 && to_stdout > animations) {
+    fail("the files of --animate do not go to standard output", "give -o a file's name");
   }
   check_count("pictures", options.outputs.size(), options);
   check_count("models", options.models.size(), options);
@@ -329,7 +340,7 @@ void read_view(const Arguments& arguments, Options& options) {
     if (!overlay) {
       options.warnings.push_back("--view=" + std::string(name) +
                                  " is not known and ignored (give axes, crosshairs, edges, "
-                                 "scales or wireframe)");
+                                 "grid, scales or wireframe)");
     } else if (name != "wireframe") {
       options.overlays.*(*overlay) = true;
     } else if (has_edges_for_wireframe(options)) {

@@ -50,6 +50,7 @@ std::optional<double> frame_time(const Options& options, uint32_t frame) {
 }
 
 std::string path_of(const Output& output, const Options& options, uint32_t frame) {
+  if (is_animated(output.format)) return output.path;
   return frame_path(output.path, options, frame);
 }
 
@@ -86,7 +87,9 @@ std::vector<NamedPath> output_paths(const Options& options) {
   add_each(options.texts);
   for (uint32_t i = options.first_frame; i < options.end_frame; ++i) {
     for (const ModelOutput& output : options.models) add(output, i);
-    for (const Output& output : options.outputs) add(output, i);
+    for (const Output& output : options.outputs) {
+      if (i == options.first_frame || !is_animated(output.format)) add(output, i);
+    }
   }
   return paths;
 }

@@ -28,6 +28,9 @@ void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camer
                    const ImportedDesign& design) {
   Canvas canvas(image, scheme.crosshair);
   if (!sees_nothing(camera, view.projection)) {
+    if (overlays.grid) {
+      draw_ground_grid(image, view, camera, scheme.background, overlays.grid_line_px);
+    }
     if (overlays.edges) {
       const MeshLookup meshes(design);
       std::optional<ContrastLines> contrast;
@@ -42,7 +45,7 @@ void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camer
     if (overlays.axes) draw_axes(painter, camera);
     if (overlays.axes && overlays.scales) draw_scale_marks(painter, camera);
   }
-  if (overlays.axes) draw_gnomon(canvas, view, scheme.axes);
+  if (overlays.axes && overlays.has_gnomon) draw_gnomon(canvas, view, scheme.axes);
 }
 
 }  // namespace frontend

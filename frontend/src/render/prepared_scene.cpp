@@ -116,7 +116,7 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
   frame.back = color_of(settings.scheme.back);
   if (settings.from_within) frame.from_within = color_of(*settings.from_within);
   frame.shading = settings.shading;
-  frame.measured_channels = settings.measured_channels || has_layers;
+  frame.measured_channels = settings.measured_channels || settings.depth_and_id || has_layers;
   frame.depth_and_id_only = !settings.measured_channels;
   if (has_layers) frame.scene_box = scene_box_;
   return frame;
@@ -129,7 +129,7 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   const bool is_studio = draws_studio(request.settings);
   // What layers are drawn over. Its measured channels are always the model's.
   const bool wants_model = !(composition.model_is_layered || is_studio) ||
-                           request.settings.measured_channels ||
+                           request.settings.measured_channels || request.settings.depth_and_id ||
                            request.settings.show == Show::kCells;
   Image image = wants_model ? renderer.draw_model(model_, frame, request) : blank(request.view);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();

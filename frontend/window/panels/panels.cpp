@@ -14,6 +14,7 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   const float status_top = draw_status_line(state);
   const float messages_top = draw_messages(state, status_top, actions.open);
   const float animation_top = draw_animation(state, messages_top);
+  draw_orientation(state, view, animation_top);
   const SectionCorner section = draw_section(state);
   const FreeRoom room{customizer_right(state, section), animation_top, section};
   draw_customizer(state, animation_top - height_below_parameters(state, room), section);

@@ -39,6 +39,10 @@ struct SectionCorner {
   float bottom = 0;
 };
 
+/// Draws the directions of the world's axes above `bottom` in the lower left corner, and the
+/// distance of the ground grid's lines, if these are shown.
+void draw_orientation(const State& state, const csgcore::View& view, float bottom);
+
 /// Draws the section plane's axis, side and position in the upper right corner if it is on. Without
 /// it the corner is beyond the window's.
 SectionCorner draw_section(State& state);

@@ -655,6 +655,26 @@ TEST_F(Command, ATurntableGoesOnceAround) {
   EXPECT_THAT(run({"-o", png_, "--turn", file_}).err, HasSubstr("--turn without --animate"));
 }
 
+TEST_F(Command, AnAnimationInOneFileHasAllFrames) {
+  EXPECT_EQ(run({"-o", folder_ / "x.gif", "--animate=3", "--turn", file_}).err, "");
+  EXPECT_EQ(drawings_, 3);
+  const std::string first = folder_.read("x.gif");
+  EXPECT_FALSE(folder_.has("x00000.gif"));
+  EXPECT_EQ(run({"-o", folder_ / "x.gif", "--animate=3", "--turn", "--fps=7", file_}).err, "");
+  EXPECT_NE(folder_.read("x.gif"), first) << "it has other times";
+  EXPECT_EQ(run({"-o", folder_ / "x.gif", file_}).err, "") << "a still";
+  EXPECT_LT(folder_.read("x.gif").size(), first.size());
+  // Beside files for each frame, and as targets for make.
+  EXPECT_EQ(run({"-o", png_, "-o", folder_ / "y.gif", "-o", folder_ / "y.webp", "--animate=2", "-d",
+                 folder_ / "y.d", file_})
+                .err,
+            "");
+  EXPECT_TRUE(folder_.has("x00000.png") && folder_.has("x00001.png") && folder_.has("y.gif"));
+  EXPECT_THAT(folder_.read("y.d"),
+              HasSubstr(folder_ / "x00000.png" + " " + (folder_ / "y.gif") + " " +
+                        (folder_ / "y.webp") + " " + (folder_ / "x00001.png") + ": "));
+}
+
 TEST_F(Command, AnAnimationThatBreaksLeavesNothing) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", kAnimated));
   const Environment broken("BROKEN_AT", "0.5");
@@ -664,6 +684,10 @@ TEST_F(Command, AnAnimationThatBreaksLeavesNothing) {
   EXPECT_EQ(outcome.code, ExitCode::kFailure);
   EXPECT_EQ(drawings_, 1);
   EXPECT_EQ(folder_.names(), names);
+  run({"-o", folder_ / "x.gif", "--animate=2", scad});
+  EXPECT_EQ(drawings_, 2);
+  EXPECT_EQ(folder_.names(), names);
+  drawings_ = 1;
   // Failures that can be foreseen are.
   std::filesystem::create_directory(folder_ / "x00001.png");
   EXPECT_THAT(run({"-o", png_, "--animate=2", scad}).err, HasSubstr("x00001.png: error: "));

@@ -104,8 +104,9 @@ TEST(Options, ExportFormatStandsAboveTheSuffix) {
   EXPECT_EQ(parse_options({"-o", "a.exr", "--export-format", "PNG", "a"}).outputs[0].format,
             PictureFormat::kPng);
   EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
-  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=ply", "a"}),
-              HasSubstr("give png or exr; csg, echo or param; stl, binstl, asciistl, off"));
+  EXPECT_THAT(
+      error_of({"-o", "x.png", "--export-format=ply", "a"}),
+      HasSubstr("give png, exr, gif or webp; csg, echo or param; stl, binstl, asciistl, off"));
   EXPECT_EQ(parse_options({"-o", "x", "--export-format=NEF3", "a"}).handed.at(0).format, "nef3");
 }
 
@@ -141,7 +142,7 @@ TEST(Options, Tolerance) {
 
 TEST(Options, OutputsThatCannotBe) {
   for (const char* name : {"x.ply", "x", "a.png/x", ".", "x.png.gz"}) {
-    EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png or .exr")) << name;
+    EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png, .exr, .gif or .webp")) << name;
   }
   EXPECT_THAT(error_of({"-o", "-", "-o", "-", "--export-format=png", "a"}),
               HasSubstr("standard output"));
@@ -190,6 +191,12 @@ TEST(Options, Animation) {
             "most 2048, --animate_sharding, or fewer -o)");
   EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--animate=2", "a"}),
               HasSubstr("standard output"));
+  EXPECT_EQ(parse_options({"-o", "-", "--export-format=gif", "--animate=2", "a"}).frames, 2u);
+  EXPECT_EQ(parse_options({"-o", "x.webp", "--fps=12.5", "a"}).fps, 12.5);
+  EXPECT_EQ(parse_options({"-o", "x.webp", "a"}).fps, kDefaultFps);
+  EXPECT_THAT(error_of({"-o", "x.gif", "--fps=51", "a"}), HasSubstr("--fps=51"));
+  EXPECT_THAT(parse_drawing({"--fps=5"}).warnings,
+              testing::ElementsAre(HasSubstr("--fps has no effect")));
   EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--echo", "a"}),
               HasSubstr("standard output"));
 }
@@ -384,6 +391,8 @@ TEST(Options, View) {
   EXPECT_THAT(parse_drawing({"--view=scales"}).warnings, ElementsAre(HasSubstr("without axes")));
   EXPECT_TRUE(two.edges && parse_drawing({"--view=edges"}).import.keeps_meshes);
   EXPECT_FALSE(parse_drawing({"--view=axes"}).import.keeps_meshes);
+  EXPECT_TRUE(parse_drawing({"--view=grid"}).overlays.grid);
+  EXPECT_FALSE(parse_drawing({"--view=axes"}).overlays.grid);
   // OpenSCAD continues, too.
   EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
 }

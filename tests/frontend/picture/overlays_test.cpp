@@ -320,8 +320,57 @@ TEST_F(Edges, CreasesAreFoundInEitherProjection) {
   }
 }
 
+TEST_F(Overlay, TheGridLiesOnTheGroundWhereNoSolidIsSeen) {
+  // From above, 20 away: the picture is 2 · 20 · tan 11.25° = 7.96 units high.
+  overlays_ = {.grid = true};
+  EXPECT_EQ(grid_spacing(make_view(camera_, options_), camera_), 1);
+  const Image image = draw(kMiss);
+  const double unit_px = 512 / (2 * 20 * std::tan(11.25 * 3.14159265358979 / 180));
+  const auto brightness = [&](double x, double y) {
+    return image.rgb[static_cast<size_t>(y) * 512 + static_cast<size_t>(x)][0];
+  };
+  // Between the fainter lines, a tenth of a unit apart, but on a line of the other direction.
+  for (const double y : {0.05, 1.05, -2.05}) {
+    for (const int x : {-2, -1, 0, 1, 2}) {
+      const double row = 256 - y * unit_px;
+      const double on_line = brightness(256 + x * unit_px, row);
+      EXPECT_LT(on_line, brightness(256 + (x + 0.05) * unit_px, row)) << x;
+      EXPECT_LT(on_line, brightness(256 + (x + 0.1) * unit_px, row)) << "finer lines are fainter";
+      EXPECT_GT(on_line, 255 * 0.7);
+    }
+  }
+  EXPECT_EQ(draw(25).rgb[256 * 512 + 256], (std::array<uint8_t, 3>{255, 255, 255}));
+}
+
+TEST_F(Overlay, TheGridOfACoarsePictureIsAsBright) {
+  overlays_ = {.grid = true};
+  const auto mean = [&](double line_px) {
+    overlays_.grid_line_px = line_px;
+    double sum = 0;
+    const Image image = draw(kMiss);
+    for (const auto& color : image.rgb) sum += color[0];
+    return sum / static_cast<double>(image.rgb.size());
+  };
+  const double fine = mean(1);
+  options_.width_px = options_.height_px = 128;
+  EXPECT_NEAR(mean(0.25), fine, 1);
+  EXPECT_LT(mean(1), fine - 1);
+}
+
+TEST_F(Overlay, TheGridEndsAtTheHorizon) {
+  overlays_ = {.grid = true};
+  camera_.rotation_deg = {80, 0, 30};
+  const Image image = draw(kMiss);
+  size_t above = 0, below = 0;
+  for (size_t i = 0; i < image.rgb.size(); ++i) {
+    (i < image.rgb.size() / 8 ? above : below) += image.rgb[i][0] != 255;
+  }
+  EXPECT_EQ(above, 0u);
+  EXPECT_GT(below, 1000u);
+}
+
 TEST_F(Overlay, FarAwayAndTinyCamerasEnd) {
-  overlays_ = {.axes = true, .crosshairs = true, .scales = true};
+  overlays_ = {.axes = true, .crosshairs = true, .scales = true, .grid = true};
   // Seen from the side, 10^9 away: an axis begins up to 10^300 pixels outside of the picture.
   for (const csgcore::Vec3& rotation : {csgcore::Vec3(0, 0, 0), csgcore::Vec3(10, 20, 30)}) {
     for (const csgcore::Vec3& target : {csgcore::Vec3(1e9, 0, 0), csgcore::Vec3(-1e9, 2e9, 3e9)}) {
