@@ -15,7 +15,7 @@ using frontend::Rgb;
 /// How far the colour of what is dimmed goes towards the background's.
 constexpr float kDimmed = 0.8f;
 
-constexpr float kMost = 255;
+constexpr float kFullLevel = 255;
 
 /// Returns, by node, whether it stands in the statement, or in or around a node that does.
 std::vector<bool> nodes_of(const language::NodeTree& tree, language::FileId file, Span statement) {
@@ -37,7 +37,7 @@ std::vector<bool> nodes_of(const language::NodeTree& tree, language::FileId file
 
 Color dimmed(const Color& color, const Rgb& background) {
   const auto mix = [](float from, uint8_t to) {
-    return from + kDimmed * (static_cast<float>(to) / kMost - from);
+    return from + kDimmed * (static_cast<float>(to) / kFullLevel - from);
   };
   return {mix(color.r, background.r), mix(color.g, background.g), mix(color.b, background.b),
           color.a};
@@ -49,7 +49,7 @@ Color shown_color(const csgcore::Primitive& primitive, const frontend::ColorSche
   const Rgb face = primitive.cut_faces == csgcore::CutFaces::kAlways ? scheme.back : scheme.front;
   const Color given = primitive.color.value_or(Color{-1, -1, -1, 1});
   const auto channel = [](float own, uint8_t of_scheme) {
-    return own < 0 ? static_cast<float>(of_scheme) / kMost : own;
+    return own < 0 ? static_cast<float>(of_scheme) / kFullLevel : own;
   };
   return {channel(given.r, face.r), channel(given.g, face.g), channel(given.b, face.b), given.a};
 }
