@@ -155,6 +155,18 @@ TEST(ServeProgram, ExitWithoutShutdownIsAFailure) {
   EXPECT_EQ(program.wait(), 1);
 }
 
+TEST(ServeProgram, PrintsTheAddressForBrowsers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  folder.write("index.html", "");
+  const std::string command = std::string("timeout --signal=INT 2 '") + SCADRAY_PROGRAM +
+                              "' serve --panel='" + folder.path() + "' --http '" +
+                              (folder / "a.scad") + "' >'" + (folder / "out") + "'";
+  static_cast<void>(std::system(command.c_str()));
+  EXPECT_THAT(folder.read("out"),
+              testing::MatchesRegex("http://127.0.0.1:[0-9]+/\\?token=[0-9a-f]+\n"));
+}
+
 TEST(ServeProgram, HasACommandLine) {
   const TemporaryFolder folder;
   const auto run = [&](const std::string& words) {
@@ -164,12 +176,25 @@ TEST(ServeProgram, HasACommandLine) {
     return WEXITSTATUS(status);
   };
   EXPECT_EQ(run("--help"), 0);
-  EXPECT_THAT(folder.read("out"), StartsWith("Usage: scadray serve [options]"));
+  EXPECT_THAT(folder.read("out"),
+              StartsWith("Usage: scadray serve [options]\n       scadray serve --http[=PORT]"));
   EXPECT_EQ(run("--version"), 0);
   EXPECT_THAT(folder.read("out"), StartsWith("scadray-serve version "));
   EXPECT_EQ(run("a.scad"), 1);
   EXPECT_THAT(folder.read("out"), HasSubstr("error: scadray serve takes no file: a.scad"));
   EXPECT_EQ(run("--language=7"), 1);
+  folder.write("a.scad", "cube(1);");
+  const std::string design = " '" + (folder / "a.scad") + "'";
+  for (const auto& [words, error] : std::vector<std::pair<std::string, std::string>>{
+           {"--http", "--http shows one design"},
+           {"--http=8080" + design + design, "--http shows one design"},
+           {"--http a.csg", "a.csg is no .scad"},
+           {"--http=99999" + design, "--http"},
+           {"--bind=127.0.0.1", "--bind has no effect without --http"},
+           {"--http --panel=/none" + design, "holds no panel for browsers"}}) {
+    EXPECT_EQ(run(words), 1) << words;
+    EXPECT_THAT(folder.read("out"), HasSubstr(error)) << words;
+  }
 }
 
 }  // namespace
