@@ -121,13 +121,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
   }
 
   void take_message() {
-    Inbox::Item item;
-    item.bytes = buffer_.size();
-    try {
-      item.message = Json::parse(beast::buffers_to_string(buffer_.data()));
-    } catch (const Json::parse_error& error) {
-      item.error = RequestError{ErrorCode::kParseError, error.what()};
-    }
+    Inbox::Item item = message_of(beast::buffers_to_string(buffer_.data()));
     buffer_.consume(buffer_.size());
     inbox_.put(std::move(item));
   }

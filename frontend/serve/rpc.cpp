@@ -174,18 +174,26 @@ Inbox::Item Inbox::take() {
   return item;
 }
 
+Inbox::Item message_of(std::string_view text) {
+  Inbox::Item item;
+  item.bytes = text.size();
+  try {
+    item.message = Json::parse(text);
+  } catch (const Json::exception& error) {  // also of numbers that are too large
+    item.error = RequestError{ErrorCode::kParseError, error.what()};
+  }
+  return item;
+}
+
 void read_messages(FrameReader& reader, Inbox& inbox) {
   for (;;) {
     Inbox::Item item;
     try {
       const auto text = reader.next();
       if (!text) break;
-      item.bytes = text->size();
-      item.message = Json::parse(*text);
+      item = message_of(*text);
     } catch (const RequestError& error) {
       item.error = error;
-    } catch (const Json::parse_error& error) {
-      item.error = RequestError{ErrorCode::kParseError, error.what()};
     }
     const bool is_exit = item.message && is_method(*item.message, "exit");
     inbox.put(std::move(item));

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace serve {
 
@@ -93,6 +94,9 @@ class Inbox {
   std::deque<Item> items_;
   std::size_t bytes_ = 0;
 };
+
+/// Returns a message's text as a message, or what is wrong with it.
+Inbox::Item message_of(std::string_view text);
 
 /// Reads messages into an inbox until the stream ends, or an `exit` has come.
 void read_messages(FrameReader& reader, Inbox& inbox);

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "client.hpp"
+#include "support/full_run.hpp"
 
 namespace serve {
 namespace {
@@ -180,12 +181,13 @@ TEST(Preview, OfRandomEditsIsThatOfAFreshServer) {
   PreviewClient client(joined(), {{"camera", kTop}});
   client.final_frame();
   std::string good = joined();
-  for (int i = 0; i < 12; ++i) {
+  const int edits = test_support::full_run() ? 10'000 : 12;
+  for (int i = 0; i < edits; ++i) {
     char line[100];
     std::snprintf(line, sizeof line, kParts[random() % std::size(kParts)],
                   static_cast<int>(random() % 9 + 1));
     const std::size_t at = random() % (lines.size() + 1);
-    if (lines.size() > 3 && random() % 3 == 0)
+    if (lines.size() > 9 || (lines.size() > 3 && random() % 3 == 0))
       lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(at % lines.size()));
     else
       lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at), line);

@@ -116,6 +116,16 @@ TEST(Inbox, ReadsUntilExit) {
   EXPECT_EQ((*inbox.take().message)["method"], "exit");
 }
 
+TEST(Messages, ThatAreNoJsonAreErrors) {
+  EXPECT_EQ(message_of("{\"a\": 1}").message, Json({{"a", 1}}));
+  for (const char* text : {"", "{", "2e589", "[-1e999]", "\"\xff\""}) {
+    const Inbox::Item item = message_of(text);
+    EXPECT_FALSE(item.message) << text;
+    ASSERT_TRUE(item.error) << text;
+    EXPECT_EQ(item.error->code, ErrorCode::kParseError);
+  }
+}
+
 TEST(Base64, IsThatOfItsStandard) {
   const auto encoded = [](std::string_view text) {
     return base64(std::as_bytes(std::span(text.data(), text.size())));
