@@ -3,7 +3,7 @@
 import { join } from 'node:path';
 import { Panel, launch } from './support/browser';
 
-const edits = 30;
+const edits = 20;
 const turn_s = 4;
 
 /** 30 lines, of which each edit changes one number. */

@@ -45,6 +45,7 @@ export class Panel {
     const file = 'file' in design ? design.file : join(folder, 'design.scad');
     if ('text' in design) writeFileSync(file, design.text);
     const server = spawn(program, ['serve', '--http', `--panel=${panel}`, file], { stdio: ['ignore', 'pipe', 'inherit'] });
+    process.once('exit', () => server.kill());
     const lines = createInterface({ input: server.stdout });
     const address = await new Promise<string>((resolve, reject) => {
       lines.on('line', (line) => {

@@ -59,6 +59,8 @@ export class Picture {
       this.preview.shown(frame);
       return;
     }
+    const { width, height } = bitmap;
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     this.context.transferFromImageBitmap(bitmap);
     this.frame = frame;
     Object.assign(this.canvas.dataset, { number: frame.number, version: frame.version, final: frame.final });
