@@ -89,7 +89,7 @@ struct Options {
   uint32_t first_frame = 0;
   uint32_t end_frame = 1;
   double fps = kDefaultFps;  // frames a second of animated pictures
-  bool turns = false;  // the camera goes once around the design during them
+  bool turns = false;        // the camera goes once around the design during them
   bool quiet = false;
   bool prints_echoes = false;      // what the design echoes goes to standard output
   bool has_hard_warnings = false;  // a warning of the design ends the run

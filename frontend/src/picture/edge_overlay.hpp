@@ -55,16 +55,17 @@ class ContrastLines {
 };
 
 /// Draws the creases and outlines that the measured channels show, 1 px wide; without `contrast` in
-/// a colour half way between the surface's and the scheme's background. A surface that continues smoothly
-/// has no edges, whatever primitives it is made of. Primitives that have meshes get their edges
-/// from draw_facet_edges(): here only what they share with other primitives is drawn. Precondition:
-/// the image has its measured channels and the view's size.
+/// a colour half way between the surface's and the scheme's background. A surface that continues
+/// smoothly has no edges, whatever primitives it is made of. Primitives that have meshes get their
+/// edges from draw_facet_edges(): here only what they share with other primitives is drawn.
+/// Precondition: the image has its measured channels and the view's size.
 void draw_edges(csgcore::Image& image, const csgcore::View& view, const ColorScheme& scheme,
                 const MeshLookup& meshes, const ContrastLines* contrast);
 
 /// Draws the edges of the meshes on the faces beside them that are seen, as OpenSCAD's preview does
-/// (frontend/OPENSCAD.md, "Edges"), but in the colours of `contrast` if that is given. No line is drawn where two primitives meet. Precondition: the
-/// image has its measured channels and the view's size.
+/// (frontend/OPENSCAD.md, "Edges"), but in the colours of `contrast` if that is given. No line is
+/// drawn where two primitives meet. Precondition: the image has its measured channels and the
+/// view's size.
 void draw_facet_edges(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
                       const ColorScheme& scheme, const MeshLookup& meshes,
                       const ContrastLines* contrast);

@@ -195,13 +195,13 @@ double contrast(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b
 
 TEST_F(FacetEdges, OfTheWindowAreSeenInEverySchemeAndLight) {
   // From the left: a cube that is turned about its vertical axis, a round post and a ball.
-  const ImportedDesign design = import_design(
-      parse("multmatrix([[0.8,-0.6,0,-6],[0.6,0.8,0,0],[0,0,1,0],[0,0,0,1]])"
-            " cube(size = [4, 4, 6], center = true);"
-            "cylinder(h = 6, r = 2, center = true);"
-            "multmatrix([[1,0,0,6],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) sphere(r = 2);",
-            "a.csg"),
-      {.keeps_meshes = true});
+  const ImportedDesign design =
+      import_design(parse("multmatrix([[0.8,-0.6,0,-6],[0.6,0.8,0,0],[0,0,1,0],[0,0,0,1]])"
+                          " cube(size = [4, 4, 6], center = true);"
+                          "cylinder(h = 6, r = 2, center = true);"
+                          "multmatrix([[1,0,0,6],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) sphere(r = 2);",
+                          "a.csg"),
+                    {.keeps_meshes = true});
   camera_.rotation_deg = {70, 0, 0};
   const csgcore::View view = make_view(camera_, options_);
   for (const ColorScheme& scheme : color_schemes()) {
