@@ -108,8 +108,8 @@ LeafPlace leaf_place(const DesignTree& design, uint32_t leaf) {
       result.trail.push_back({label_of(tree, node), source_place(files, node.place), node.place});
     } else if (node.is_module_call) {
       const std::string_view text = files[node.place.file].text;
-      result.trail.push_back({call_text(text.substr(node.place.offset)),
-                              source_place(files, node.place), node.place});
+      result.trail.push_back(
+          {call_text(text.substr(node.place.offset)), source_place(files, node.place), node.place});
     }
   }
   return result;

@@ -176,7 +176,8 @@ class global_control {
  public:
   enum parameter { max_allowed_parallelism };
   global_control(parameter, size_t) {}
-  ~global_control() {}  // oneTBB's is no trivial one either: an object that only lives is no unused variable
+  ~global_control() {
+  }  // oneTBB's is no trivial one either: an object that only lives is no unused variable
 };
 
 class task_arena {
