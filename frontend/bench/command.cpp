@@ -126,15 +126,9 @@ class Run {
 
 ExitCode run(const std::vector<std::string>& arguments) {
   const Options options = parse_options(arguments);
-  switch (options.action) {
-    case Action::kHelp:
-      std::fputs(help_text().c_str(), stdout);
-      return ExitCode::kDone;
-    case Action::kVersion:
-      std::printf("scadray-bench version %s\n", SCADRAY_VERSION);
-      return ExitCode::kDone;
-    case Action::kMeasure:
-      break;
+  if (frontend::print_requested(options.request, help_text(),
+                                "scadray-bench version " SCADRAY_VERSION)) {
+    return ExitCode::kDone;
   }
   return Run(options).execute();
 }

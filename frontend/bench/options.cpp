@@ -76,10 +76,8 @@ constexpr OptionRow kOptions[] = {
 Options parse_options(const std::vector<std::string>& words) {
   const Arguments arguments(option_table(), words, "scadray bench");
   Options options;
-  if (arguments.has("help") || arguments.has("version")) {
-    options.action = arguments.has("help") ? Action::kHelp : Action::kVersion;
-    return options;
-  }
+  options.request = arguments.request();
+  if (options.request != frontend::ProgramRequest::kWork) return options;
   options.inputs = read_inputs(arguments);
   options.camera.width_px = 640;  // the paper's size (§4.1)
   options.camera.height_px = 480;

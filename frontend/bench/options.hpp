@@ -10,15 +10,14 @@
 #include "frontend/camera.hpp"
 #include "frontend/design_file_options.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/run_program.hpp"
 #include "measurement.hpp"
 
 namespace bench {
 
-enum class Action : uint8_t { kMeasure, kHelp, kVersion };
-
 /// The checked command line: every value is in its documented range.
 struct Options {
-  Action action = Action::kMeasure;
+  frontend::ProgramRequest request{};
   std::vector<std::string> inputs;  // at least one; "-", at most once: standard input
   frontend::CameraOptions camera;
   frontend::ImportOptions import;

@@ -91,18 +91,11 @@ ExitCode serve_browsers(const Options& options) {
 
 ExitCode run(const std::vector<std::string>& arguments) {
   const Options options = parse_options(arguments);
-  switch (options.action) {
-    case Action::kHelp:
-      std::fputs(help_text().c_str(), stdout);
-      return ExitCode::kDone;
-    case Action::kVersion:
-      std::printf("scadray-serve version %s\n", SCADRAY_VERSION);
-      return ExitCode::kDone;
-    case Action::kServeBrowsers:
-      return serve_browsers(options);
-    case Action::kServe:
-      break;
+  if (frontend::print_requested(options.request, help_text(),
+                                "scadray-serve version " SCADRAY_VERSION)) {
+    return ExitCode::kDone;
   }
+  if (!options.design.empty()) return serve_browsers(options);
   return serve_editor(options);
 }
 

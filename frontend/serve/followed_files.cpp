@@ -1,9 +1,6 @@
 #include "followed_files.hpp"
 
-#include <poll.h>
-
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <mutex>
@@ -97,17 +94,7 @@ class FollowedFiles::Watch {
     std::optional<Clock::time_point> until = watch_.next_look();
     if (const auto settled = watch_.settled_at())
       until = until ? std::min(*until, *settled) : settled;
-    timespec timeout{};
-    if (until) {
-      const auto rest = std::max(*until - Clock::now(), Clock::duration::zero());
-      const auto seconds = std::chrono::floor<std::chrono::seconds>(rest);
-      timeout.tv_sec = seconds.count();
-      timeout.tv_nsec = std::chrono::nanoseconds(rest - seconds).count();
-    }
-    std::array<pollfd, 2> waits = {pollfd{wake_.descriptor(), POLLIN, 0},
-                                   pollfd{watch_.descriptor(), POLLIN, 0}};
-    ppoll(waits.data(), waits.size(), until ? &timeout : nullptr, nullptr);
-    wake_.clear();
+    frontend::wait_for_news(watch_, wake_, until);
   }
 
   const std::function<void()> on_change_;

@@ -33,7 +33,6 @@ boost::program_options::options_description option_table() {
 /// `--http design.scad` takes the design for its value.
 void read_http(const frontend::Arguments& arguments, std::vector<std::string> files,
                Options& options) {
-  options.action = Action::kServeBrowsers;
   const std::string value = arguments.text("http");
   if (!value.empty() && !frontend::parse_number<double>(value)) {
     files.insert(files.begin(), value);
@@ -56,10 +55,8 @@ void read_http(const frontend::Arguments& arguments, std::vector<std::string> fi
 Options parse_options(const std::vector<std::string>& words) {
   const frontend::Arguments arguments(option_table(), words, "scadray serve");
   Options options;
-  if (arguments.has("help") || arguments.has("version")) {
-    options.action = arguments.has("help") ? Action::kHelp : Action::kVersion;
-    return options;
-  }
+  options.request = arguments.request();
+  if (options.request != frontend::ProgramRequest::kWork) return options;
   options.language = frontend::read_language(arguments);
   std::vector<std::string> files = arguments.texts("file");
   if (arguments.has("http")) {

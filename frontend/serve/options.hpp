@@ -7,18 +7,16 @@
 #include <vector>
 
 #include "command/option_row.hpp"
+#include "frontend/run_program.hpp"
 #include "language/language_version.hpp"
 
 namespace serve {
 
-enum class Action : uint8_t { kServe, kServeBrowsers, kHelp, kVersion };
-
 struct Options {
-  Action action = Action::kServe;
+  frontend::ProgramRequest request{};
   language::LanguageVersion language{};
-  // kServeBrowsers:
-  std::string design;
-  uint16_t port = 0;  // 0: any
+  std::string design;  // to be shown to browsers; empty: the client is an editor
+  uint16_t port = 0;   // 0: any
   std::string bind = "127.0.0.1";
   std::string origin;  // empty: that of `bind`
   std::string panel;   // a folder; empty: that beside the program

@@ -131,15 +131,9 @@ class Run {
 
 ExitCode run(const std::vector<std::string>& arguments) {
   const Options options = parse_options(arguments);
-  switch (options.action) {
-    case Action::kHelp:
-      std::fputs(help_text().c_str(), stdout);
-      return ExitCode::kDone;
-    case Action::kVersion:
-      std::printf("scadray-validate version %s\n", SCADRAY_VERSION);
-      return ExitCode::kDone;
-    case Action::kValidate:
-      break;
+  if (frontend::print_requested(options.request, help_text(),
+                                "scadray-validate version " SCADRAY_VERSION)) {
+    return ExitCode::kDone;
   }
   std::optional<tbb::global_control> threads;
   if (options.threads > 0) {

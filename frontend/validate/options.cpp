@@ -72,10 +72,8 @@ constexpr OptionRow kOptions[] = {
 Options parse_options(const std::vector<std::string>& words) {
   const Arguments arguments(option_table(), words, "scadray validate");
   Options options;
-  if (arguments.has("help") || arguments.has("version")) {
-    options.action = arguments.has("help") ? Action::kHelp : Action::kVersion;
-    return options;
-  }
+  options.request = arguments.request();
+  if (options.request != frontend::ProgramRequest::kWork) return options;
   options.input = only_file(arguments);
   options.report = arguments.text_or_empty("report");
   options.quiet = arguments.has("quiet");

@@ -9,15 +9,14 @@
 #include "command/option_row.hpp"
 #include "frontend/design_file_options.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/run_program.hpp"
 #include "validation.hpp"
 
 namespace validation {
 
-enum class Action : uint8_t { kValidate, kHelp, kVersion };
-
 /// The checked command line: every value is in its documented range.
 struct Options {
-  Action action = Action::kValidate;
+  frontend::ProgramRequest request{};
   std::string input;   // "-": standard input
   std::string report;  // empty: none; "-": standard output
   frontend::ImportOptions import;

@@ -14,6 +14,7 @@
 
 #include "command/option_words.hpp"
 #include "frontend/camera.hpp"
+#include "frontend/run_program.hpp"
 
 namespace frontend {
 
@@ -57,6 +58,12 @@ class Arguments {
             const WordReader& reader = {});
 
   bool has(const char* option) const { return values_.count(option) > 0; }
+  /// Returns what --help and --version ask for. These are options of the table.
+  ProgramRequest request() const {
+    return has("help")      ? ProgramRequest::kHelp
+           : has("version") ? ProgramRequest::kVersion
+                            : ProgramRequest::kWork;
+  }
   const std::string& text(const char* option) const { return values_[option].as<std::string>(); }
   std::string text_or_empty(const char* option) const {
     return has(option) ? text(option) : std::string();

@@ -29,6 +29,12 @@ ExitCode run_program(const std::function<ExitCode()>& program, const std::string
   return ExitCode::kFailure;
 }
 
+bool print_requested(ProgramRequest request, const std::string& help, const std::string& version) {
+  if (request == ProgramRequest::kWork) return false;
+  std::fputs(request == ProgramRequest::kHelp ? help.c_str() : (version + "\n").c_str(), stdout);
+  return true;
+}
+
 void run_subcommand(const std::string& name, const std::vector<std::string>& arguments,
                     const std::string& todo) {
   // The path is the program's own, not the one it was called by, which may be a link in another

@@ -1,9 +1,6 @@
 #include "frontend/design_follower.hpp"
 
-#include <poll.h>
-
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <mutex>
@@ -122,17 +119,7 @@ class DesignFollower::Follower {
     } else if (const auto due = inputs_due()) {
       until = until ? std::min(*until, *due) : due;
     }
-    timespec timeout{};
-    if (until) {
-      const auto rest = std::max(*until - Clock::now(), Clock::duration::zero());
-      const auto seconds = std::chrono::floor<std::chrono::seconds>(rest);
-      timeout.tv_sec = seconds.count();
-      timeout.tv_nsec = std::chrono::nanoseconds(rest - seconds).count();
-    }
-    std::array<pollfd, 2> waits = {pollfd{wake_.descriptor(), POLLIN, 0},
-                                   pollfd{watch_.descriptor(), POLLIN, 0}};
-    ppoll(waits.data(), waits.size(), until ? &timeout : nullptr, nullptr);
-    wake_.clear();
+    wait_for_news(watch_, wake_, until);
   }
 
   /// Notes that there is something newer than what is being read, or was read last.

@@ -1,6 +1,7 @@
 #include "follow/file_watch.hpp"
 
 #include <linux/magic.h>
+#include <poll.h>
 #include <sys/inotify.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -284,6 +285,22 @@ void FileWatch::on_event(const inotify_event& event) {
     changed(files_[it->second.file], is_complete ? kSettleClosed : kSettleOpen);
     outdated_ = outdated_ || !is_closed;
   }
+}
+
+void wait_for_news(const FileWatch& watch, const Event& wake,
+                   std::optional<FileWatch::Clock::time_point> until) {
+  timespec timeout{};
+  if (until) {
+    const auto rest =
+        std::max(*until - FileWatch::Clock::now(), FileWatch::Clock::duration::zero());
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(rest);
+    timeout.tv_sec = seconds.count();
+    timeout.tv_nsec = std::chrono::nanoseconds(rest - seconds).count();
+  }
+  std::array<pollfd, 2> waits = {pollfd{wake.descriptor(), POLLIN, 0},
+                                 pollfd{watch.descriptor(), POLLIN, 0}};
+  ppoll(waits.data(), waits.size(), until ? &timeout : nullptr, nullptr);
+  wake.clear();
 }
 
 }  // namespace frontend

@@ -109,4 +109,9 @@ class FileWatch {
   Clock::time_point last_look_{};
 };
 
+/// Waits until `wake` is raised, which it then lowers, or the watch may have news, or it is
+/// `until`.
+void wait_for_news(const FileWatch& watch, const Event& wake,
+                   std::optional<FileWatch::Clock::time_point> until);
+
 }  // namespace frontend
