@@ -135,6 +135,12 @@ Preview::Job Preview::job_of(const DocumentPointer& document) const {
   return {std::make_shared<const Document>(std::move(evaluated)), workspace_.overlay(), inputs_};
 }
 
+/// Returns the document once it has been evaluated for those who follow it, or else null.
+DocumentPointer Preview::evaluated_document() const {
+  const DocumentPointer document = workspace_.find(key_);
+  return document && document->evaluated && document->evaluated->was_followed ? document : nullptr;
+}
+
 void Preview::read_later(Job job, bool has_new_inputs) {
   {
     const std::lock_guard lock(mutex_);
@@ -149,8 +155,8 @@ void Preview::read_later(Job job, bool has_new_inputs) {
 
 void Preview::notice_document() {
   wake();
-  const DocumentPointer document = workspace_.find(key_);
-  if (!document || !document->evaluated || document->evaluated == evaluated_) return;
+  const DocumentPointer document = evaluated_document();
+  if (!document || document->evaluated == evaluated_) return;
   evaluated_ = document->evaluated;
   read_later(job_of(document), false);
 }
@@ -165,8 +171,8 @@ void Preview::update_inputs() {
   frontend::DesignInputs wanted = wanted_inputs();
   if (wanted == inputs_) return;
   inputs_ = std::move(wanted);
-  const DocumentPointer document = workspace_.find(key_);
-  if (!document || !document->evaluated) return;
+  const DocumentPointer document = evaluated_document();
+  if (!document) return;
   evaluated_ = document->evaluated;
   has_new_inputs_ = true;
   read_later(job_of(document), true);

@@ -164,6 +164,7 @@ class Preview {
 
   frontend::DesignInputs wanted_inputs() const;
   void update_inputs();
+  DocumentPointer evaluated_document() const;
   Job job_of(const DocumentPointer& document) const;
   void take_reading(std::shared_ptr<const DesignReading> reading);
   void choose_camera();

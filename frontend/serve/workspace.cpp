@@ -113,6 +113,7 @@ Evaluated evaluate(const Document& document, const TextOverlay& overlay,
   Evaluated result;
   result.text = document.text;
   result.version = document.version;
+  result.was_followed = document.followers > 0;
   if (!document.problem.empty()) {
     result.said.push_back({language::MessageGroup::kError, document.problem});
     result.lookups = {document.path};
@@ -135,7 +136,7 @@ Evaluated evaluate(const Document& document, const TextOverlay& overlay,
   result.values = std::move(evaluation.values);
   result.files_read = evaluation.files_read;
   result.lookups = evaluation.lookups;
-  if (document.followers > 0) {
+  if (result.was_followed) {
     result.evaluation = std::make_shared<const language::Evaluation>(std::move(evaluation));
   }
   return result;
@@ -217,7 +218,7 @@ void Workspace::follow(const std::string& key, const std::string& path) {
     Document document = *found->second;
     ++document.followers;
     found->second = std::make_shared<const Document>(std::move(document));
-    if (!found->second->evaluated || !found->second->evaluated->evaluation)
+    if (!found->second->evaluated || !found->second->evaluated->was_followed)
       evaluate_later(key, true);
     return;
   }
@@ -238,6 +239,7 @@ void Workspace::unfollow(const std::string& key) {
     if (document.evaluated) {  // what it holds of the design is not needed any more
       Evaluated evaluated = *document.evaluated;
       evaluated.evaluation.reset();
+      evaluated.was_followed = false;
       document.evaluated = std::make_shared<const Evaluated>(std::move(evaluated));
     }
   }

@@ -42,8 +42,8 @@ struct Evaluated {
   TextPointer text;     // of the document
   int64_t version = 0;  // of that text
   std::vector<Said> said;
-  /// Null where nobody follows the document, or where the evaluation has failed for other reasons
-  /// than the design.
+  bool was_followed = false;  // by anybody who needs the following
+  /// Null where nobody did, or where the evaluation has failed for other reasons than the design.
   std::shared_ptr<const language::Evaluation> evaluation;
   /// language::Evaluation's.
   std::map<std::string, std::string, std::less<>> values;

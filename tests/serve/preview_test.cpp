@@ -133,6 +133,14 @@ TEST(Preview, ShowsADocument) {
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(frame.image.data()) + 1, 3), "PNG");
 }
 
+TEST(Preview, WaitsForAnEvaluationOfItsOwn) {
+  PreviewClient client;
+  client.client.open(client.path, "cube(10);");
+  client.client.said(client.path);  // it has been evaluated, for its diagnostics alone
+  client.begin();
+  EXPECT_EQ(client.design()["ok"], true);
+}
+
 TEST(Preview, EchoesAreNoDiagnostics) {
   PreviewClient client("echo(1);");
   EXPECT_THAT(client.client.said(client.path), IsEmpty());

@@ -503,7 +503,7 @@ std::string help_text() {
       "drawing that import() reads (.stl, .off, .amf, .3mf, .nef3, .svg, .dxf), or - for a\n"
       ".scad or .csg from standard input. `bench` measures how long that takes, `validate`\n"
       "compares it with exact arithmetic, `check` compares evaluations with openscad's,\n"
-      "`serve` is a language server for editors",
+      "`serve` shows designs in editors and browsers",
       kHelpColumns);
   all.add(openscad_table()).add(own_table());
   std::ostringstream text;
