@@ -38,10 +38,10 @@ SectionCorner draw_section(State& state) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoFocusOnAppearing)) {
-    constexpr const char* kAxes[] = {"x", "y", "z"};
+    constexpr const char* kAxisNames[] = {"x", "y", "z"};
     for (uint8_t axis = 0; axis < 3; ++axis) {
       if (axis > 0) ImGui::SameLine();
-      if (ImGui::RadioButton(kAxes[axis], section.axis() == axis)) {
+      if (ImGui::RadioButton(kAxisNames[axis], section.axis() == axis)) {
         state.set_section_normal(axis_of(axis));
       }
     }
