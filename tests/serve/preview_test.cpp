@@ -405,10 +405,11 @@ TEST(Preview, LightsWhatAnotherFileMakes) {
 }
 
 TEST(Preview, TellsTheTextsThatItsDesignReads) {
-  PreviewClient client("include <b.scad>\ncube(size);");
+  PreviewClient client;
   const std::string other = client.folder.write("b.scad", "size = 5;\n");
   const std::string secret = client.folder.write("c.scad", "secret = 5;\n");
-  client.change("include <b.scad>\ncube(size + 1);");
+  client.client.open(client.path, "include <b.scad>\ncube(size + 1);");
+  client.begin();
   client.final_frame();
   const auto source = [&](const std::string& path) {
     return client.request("source", {{"uri", uri_of_path(path)}});
