@@ -322,35 +322,6 @@ TEST(RendererTest, LongListsOfTiles) {
   }
 }
 
-TEST(RendererTest, DrawsWhileSubdividing) {
-  const Scene scene = test_support::cylinder_minus_spheres(2000);
-  const View view = view_from(scene, Projection::kPerspective, 25, 35);
-  LoadedScene loaded(scene, leaves_of(8));
-  const Image whole = loaded.draw(view);
-  const Image batches =
-      loaded.renderer.draw_while_subdividing(leaves_of(8), view, loaded.settings, loaded.stats);
-  EXPECT_EQ(whole.rgb, batches.rgb);
-  EXPECT_EQ(whole.id, batches.id);
-  EXPECT_GE(loaded.stats.draw_calls, 1u);
-}
-
-/// Cells that the budget did not suffice to divide are drawn as they are.
-TEST(RendererTest, DrawsCellsThatWereGivenUp) {
-  const Scene scene = test_support::stacked_frusta(12);
-  const View view = view_from(scene, Projection::kPerspective, 25, 35);
-  SubdivisionOptions options = leaves_of(2);
-  options.budget_bytes = 1 << 15;
-  expect_right(scene, view, options);
-  LoadedScene loaded(scene, options);
-  const csgcore::LeafCensus leaves = csgcore::census(loaded.subdivision);
-  EXPECT_GT(leaves.by_kind[static_cast<size_t>(csgcore::LeafKind::kGivenUp)], 0u);
-  const Image whole = loaded.draw(view);
-  const Image batches =
-      loaded.renderer.draw_while_subdividing(options, view, loaded.settings, loaded.stats);
-  EXPECT_EQ(whole.rgb, batches.rgb);
-  EXPECT_EQ(whole.id, batches.id);
-}
-
 TEST(RendererTest, AnotherAngleNeedsNoSubdivision) {
   const Scene scene = test_support::cylinder_minus_spheres(200);
   const View far = view_from(scene, Projection::kPerspective, 25, 35, 6);
