@@ -3,7 +3,8 @@ save, and to the STL; by scadray, OpenSCAD 2021.01, and OpenSCAD's snapshot of 2
 
 {"designs": [{"design", "kind", "primitives", "check": {"pixels", "undecided"}: of scadray's smooth picture, in which
      none is wrong by rays in exact arithmetic, or null where they take too long,
-   "facets_off": pixels that OpenSCAD's comparison leaves between its preview and scadray's picture of the same facets,
+   "facets_off": pixels that OpenSCAD's comparison leaves between its preview and scadray's picture of the same facets
+     (thousands where the preview has holes, since the design names no `convexity`),
    "peer_off": pixels of OpenSCAD's preview that are visibly different from the exact picture,
    "picture_ms", "preview_ms", "save_ms", "model_ms", "render_ms", "manifold_ms": summaries, or null where it cannot
      be had; the last two make the model, as model_ms does}],

@@ -13,7 +13,7 @@ function tooth(n) =
   concat(flank, [for (i = [8 : -1 : 0]) [flank[i].x, -flank[i].y]]);
 
 module gear(n, h, bore, scale = 1, twist = 0) difference() {
-  linear_extrude(h, scale = scale, twist = twist, slices = 12) union() {
+  linear_extrude(h, scale = scale, twist = twist, slices = 12, convexity = 10) union() {
     circle(r = n * module_mm / 2 - 1.25 * module_mm, $fn = 4 * n);
     for (i = [0 : n - 1]) rotate(360 * i / n) polygon(concat([[0, 0]], tooth(n)));
   }

@@ -11,7 +11,7 @@ module profile() {
 }
 
 difference() {
-  linear_extrude(turns * pitch, twist = -360 * turns, slices = 24 * turns) profile();
+  linear_extrude(turns * pitch, twist = -360 * turns, slices = 24 * turns, convexity = 10) profile();
   translate([0, 0, turns * pitch - 1]) difference() {
     cylinder(d = 2 * diameter, h = 2);
     cylinder(d1 = diameter, d2 = diameter - 3, h = 1.5);
