@@ -197,8 +197,8 @@ def write_real(section, folder):
         640×480 and to the model (an STL, or an SVG of a drawing), by scadray and by OpenSCAD 2021.01; of scadray's
         window, from a save that changes a small part to the screen; and of OpenSCAD 2025.07.18's model by Manifold,
         which is one thread of WebAssembly without the start of its process. *Exact* is the share of the smooth picture's
-        pixels that rays in exact arithmetic decide: no other one is shown; *facets* those that OpenSCAD's comparison leaves between its preview and
-        scadray's picture of the same facets (32 pass; there are thousands where its preview has holes, since the design names no convexity); *preview off* the pixels of its preview that are visibly
+        pixels that rays in exact arithmetic confirm (the others they leave undecided); *facets* counts those that
+        OpenSCAD's comparison leaves between its preview and scadray's picture of the same facets (32 pass; there are thousands where its preview has holes, since the design names no convexity); *preview off* those of its preview that are visibly
         different from the exact picture.""")
     text += table(REAL_RATIOS, real_ratio_rows(section))
     panel = Panel("From the text to the picture", "OpenSCAD 2021.01's preview, ms", "scadray, ms")
