@@ -284,8 +284,11 @@ void Workspace::stop(const std::string& key) {
 
 std::optional<frontend::Activity> Workspace::activity(const std::string& key) const {
   const std::lock_guard lock(mutex_);
-  if (running_ == key) return running_activity_.current();
-  if (std::ranges::find(waiting_, key) == waiting_.end()) return std::nullopt;
+  if (running_ == key) {
+    if (auto current = running_activity_.current()) return current;
+  } else if (std::ranges::find(waiting_, key) == waiting_.end()) {
+    return std::nullopt;
+  }
   return frontend::Activity{"waiting", -1, std::chrono::steady_clock::now()};
 }
 
@@ -354,6 +357,7 @@ void Workspace::run(const std::stop_token& stop) {
     } catch (const std::exception& error) {  // there is no memory
       evaluated.emplace().text = document->text;
       evaluated->version = document->version;
+      evaluated->was_followed = document->followers > 0;
       evaluated->said.push_back({language::MessageGroup::kError, error.what()});
     }
     lock.lock();
