@@ -23,10 +23,6 @@ using Clock = FileWatch::Clock;
 /// How often files are looked at that the system cannot watch.
 constexpr std::chrono::milliseconds kPollInterval{250};
 
-int64_t now_ns() {
-  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 class FollowedFiles::Watch {
@@ -53,7 +49,7 @@ class FollowedFiles::Watch {
 
   void note_reading() {
     const std::lock_guard lock(mutex_);
-    reading_since_ns_ = now_ns();
+    reading_since_ns_ = FileWatch::system_time_ns();
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "messages/messages.hpp"
 #include "preview_light.hpp"
 #include "statements.hpp"
 
@@ -150,28 +151,10 @@ int severity_of(MessageGroup group) {
   return kInformation;
 }
 
-const char* name_of(MessageGroup group) {
-  switch (group) {
-    case MessageGroup::kError:
-      return "ERROR";
-    case MessageGroup::kWarning:
-    case MessageGroup::kSoftWarning:
-      return "WARNING";
-    case MessageGroup::kDeprecated:
-      return "DEPRECATED";
-    case MessageGroup::kTrace:
-      return "TRACE";
-    case MessageGroup::kEcho:
-      return "ECHO";
-    case MessageGroup::kPlain:
-      break;
-  }
-  return "";
-}
-
 Json message_of(const Said& said, const PlaceForms& places) {
-  Json json = {
-      {"severity", severity_of(said.group)}, {"group", name_of(said.group)}, {"text", said.what}};
+  Json json = {{"severity", severity_of(said.group)},
+               {"group", language::name_of(said.group)},
+               {"text", said.what}};
   if (said.text) {
     json["uri"] = places.uri_of(said.path);
     json["range"] = json_of(said.text->range_of(said.span, places.encoding));

@@ -29,10 +29,6 @@ std::string absolute(const std::string& path) {
   return failed ? path : result.string();
 }
 
-int64_t system_time_ns() {
-  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 /// Runs two threads: one watches the files and decides, and, while there is something to read, one
@@ -179,7 +175,7 @@ class DesignFollower::Follower {
     reading_since_ = Clock::now();
     watch_.forget_changes();
     if (is_followed_) watch_.set_files(paths_to_watch());
-    reading_since_ns_ = system_time_ns();
+    reading_since_ns_ = FileWatch::system_time_ns();
     set_state(State::kReading);
     activity_.begin("reading");
     has_new_inputs_ = false;

@@ -287,6 +287,10 @@ void FileWatch::on_event(const inotify_event& event) {
   }
 }
 
+int64_t FileWatch::system_time_ns() {
+  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
 void wait_for_news(const FileWatch& watch, const Event& wake,
                    std::optional<FileWatch::Clock::time_point> until) {
   timespec timeout{};

@@ -52,6 +52,9 @@ class FileWatch {
   /// `only_polls`: do without inotify.
   FileWatch(bool only_polls, Milliseconds poll_interval);
 
+  /// Returns the time for set_files().
+  static int64_t system_time_ns();
+
   /// Watches these files from now on, by their absolute paths. Changes of files that were watched
   /// before stay noted. A file that was not, and that the caller has read since `since` (the system
   /// clock, in ns), counts as changed if it changed after that.

@@ -7,30 +7,30 @@ namespace language {
 
 namespace {
 
-std::string_view group_prefix(MessageGroup group) {
-  switch (group) {
-    case MessageGroup::kError:
-      return "ERROR: ";
-    case MessageGroup::kWarning:
-    case MessageGroup::kSoftWarning:
-      return "WARNING: ";
-    case MessageGroup::kDeprecated:
-      return "DEPRECATED: ";
-    case MessageGroup::kTrace:
-      return "TRACE: ";
-    case MessageGroup::kEcho:
-      return "ECHO: ";
-    case MessageGroup::kPlain:
-      break;
-  }
-  return "";
-}
-
 std::string suffix_of(const std::string& path, uint32_t line) {
   return " in file " + path + ", line " + std::to_string(line);
 }
 
 }  // namespace
+
+std::string_view name_of(MessageGroup group) {
+  switch (group) {
+    case MessageGroup::kError:
+      return "ERROR";
+    case MessageGroup::kWarning:
+    case MessageGroup::kSoftWarning:
+      return "WARNING";
+    case MessageGroup::kDeprecated:
+      return "DEPRECATED";
+    case MessageGroup::kTrace:
+      return "TRACE";
+    case MessageGroup::kEcho:
+      return "ECHO";
+    case MessageGroup::kPlain:
+      break;
+  }
+  return "";
+}
 
 Messages::Messages(const SourceFiles& files, Sink sink) : files_(files), sink_(std::move(sink)) {
   std::error_code no_folder;
@@ -60,7 +60,8 @@ void Messages::say_parser_error(std::string text, Place place, uint32_t line) {
 void Messages::say(MessageGroup group, std::string text, Place place, const std::string& suffix) {
   ++said_;
   if (group == MessageGroup::kWarning) ++warnings_;
-  std::string line = std::string(group_prefix(group)) + text + suffix;
+  const std::string_view name = name_of(group);
+  std::string line = std::string(name) + (name.empty() ? "" : ": ") + text + suffix;
   const Message message{group, std::move(text), place, std::move(line)};
   if (!is_repeat(message)) sink_(message);
 }

@@ -15,6 +15,9 @@
 
 namespace language {
 
+/// Returns the word that lines of the group begin with: "WARNING"; empty: none.
+std::string_view name_of(MessageGroup group);
+
 struct Message {
   MessageGroup group;
   std::string text;  // without group and place
