@@ -281,6 +281,7 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
   Painting painting;
   painting.order = order;
   settings.stop = stop;
+  settings.waits_for_shaders = false;
   settings.progress = [this, &order, &stop](const char* stage, double fraction) {
     if (stop.stop_requested()) throw csgcore::Stopped();
     activity_.update(stage, fraction);

@@ -130,6 +130,19 @@ uint64_t HeadlessContext::most_texels() const { return impl_->most_texels; }
 
 void HeadlessContext::set_most_texels(uint64_t most) { impl_->most_texels = most; }
 
+void HeadlessContext::leave_thread() {
+  eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+void HeadlessContext::take_thread() {
+  eglBindAPI(EGL_OPENGL_API);
+  if (!eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context)) {
+    throw GlError("a thread cannot take the OpenGL context over");
+  }
+}
+
 ProgramCache& HeadlessContext::programs() { return impl_->programs; }
+
+void HeadlessContext::set_compiles(bool compiles) { impl_->programs.set_compiles(compiles); }
 
 }  // namespace glrender

@@ -108,9 +108,12 @@ Program compile_program(const ProgramKey& key) {
 }
 
 GLuint ProgramCache::get(const ProgramKey& key) {
-  auto& program = programs_[key];
-  if (!program) program = compile_program(key);
-  return program.name();
+  auto found = programs_.find(key);
+  if (found == programs_.end()) {
+    if (!compiles_) throw ShaderMissing();
+    found = programs_.emplace(key, compile_program(key)).first;
+  }
+  return found->second.name();
 }
 
 }  // namespace glrender

@@ -35,10 +35,12 @@ Program compile_program(const ProgramKey& key);
 class ProgramCache {
  public:
   GLuint get(const ProgramKey& key);
+  void set_compiles(bool compiles) { compiles_ = compiles; }
   size_t size() const { return programs_.size(); }
 
  private:
   std::map<ProgramKey, Program> programs_;
+  bool compiles_ = true;
 };
 
 }  // namespace glrender

@@ -72,6 +72,9 @@ struct RenderSettings {
   /// Also fill those RenderStats that take extra work: T_S, T_R and S_R, for which OpenGL draws
   /// again.
   bool all_stats = false;
+  /// Whether the picture may wait for OpenGL to start, and to compile shaders: seconds, on some
+  /// drivers. If not, that goes on by itself, and the CPU draws until then (SceneRenderer).
+  bool waits_for_shaders = true;
   /// Once requested, the CPU's pictures end early, unfinished.
   std::stop_token stop;
   /// Called during long work with a stage and the fraction of it that is done, in [0, 1]; may be

@@ -32,8 +32,9 @@ class SceneRenderer {
   void load(std::shared_ptr<const csgcore::Scene> scene);
 
   /// Returns the picture that render() makes of the scene, and its statistics, in which reused work
-  /// takes no time. The renderer is the one chosen at the first draw, whatever later settings say.
-  /// Precondition: a scene is loaded.
+  /// takes no time. The renderer is the one chosen at the first draw, whatever later settings say;
+  /// where a picture may not wait for shaders, the CPU draws in place of OpenGL until those that it
+  /// needs are there, which another thread compiles. Precondition: a scene is loaded.
   csgcore::Image draw(const csgcore::View& view, const RenderSettings& settings,
                       RenderStats& stats);
 

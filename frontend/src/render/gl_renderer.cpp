@@ -21,6 +21,8 @@ template <typename Function>
 auto translate_errors(Function function) {
   try {
     return function();
+  } catch (const glrender::ShaderMissing&) {
+    throw ShaderMissing();
   } catch (const glrender::GlError& error) {
     throw GlFailure(error.what());
   }
@@ -65,6 +67,12 @@ class GlRenderer final : public SolidRenderer {
   void forget() override {
     loaded_.clear();
     subdivisions_.forget();
+  }
+
+  void set_compiles(bool compiles) override { context_.set_compiles(compiles); }
+  void leave_thread() override { context_.leave_thread(); }
+  void take_thread() override {
+    translate_errors([&] { context_.take_thread(); });
   }
 
  private:

@@ -2,7 +2,9 @@
 #include "frontend/scene_renderer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -18,6 +20,24 @@ namespace {
 using csgcore::Image;
 using ScenePointer = std::shared_ptr<const csgcore::Scene>;
 
+/// Returns the renderer, or OpenGL's where that is null, with all that the picture needs. Another
+/// thread may take it over.
+std::unique_ptr<SolidRenderer> warmed(std::unique_ptr<SolidRenderer> renderer,
+                                      const GlDemands& demands, const ScenePointer& scene,
+                                      const csgcore::View& view, const RenderSettings& settings) {
+  if (renderer) {
+    renderer->take_thread();
+  } else {
+    renderer = make_gl_renderer(demands);
+  }
+  renderer->set_compiles(true);
+  RenderStats stats;
+  PreparedScene(scene).draw(*renderer, {view, settings, stats});
+  renderer->forget();
+  renderer->leave_thread();
+  return renderer;
+}
+
 }  // namespace
 
 class SceneRenderer::Impl {
@@ -29,10 +49,12 @@ class SceneRenderer::Impl {
     const Clock::time_point start = Clock::now();
     const int exponent = scale_exponent(*scene);
     if (exponent != 0) scene = std::make_shared<const csgcore::Scene>(scaled(*scene, exponent));
-    auto prepared = std::make_shared<const PreparedScene>(std::move(scene));
+    auto prepared = std::make_shared<const PreparedScene>(scene);
     prepare_ms_ = ms_since(start);
     if (renderer_) renderer_->forget();
+    if (stand_in_) stand_in_->forget();
     scene_ = std::move(prepared);
+    source_ = std::move(scene);
     exponent_ = exponent;
   }
 
@@ -91,8 +113,8 @@ class SceneRenderer::Impl {
   Image draw_whole(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats) {
     const csgcore::View drawn = scaled_view(view);
     Image image;
-    with_renderer(settings, stats, [&] {
-      image = scene_->draw(*renderer_, {drawn, settings, stats});
+    with_renderer(drawn, settings, stats, [&](SolidRenderer& renderer) {
+      image = scene_->draw(renderer, {drawn, settings, stats});
     });
     return image;
   }
@@ -102,33 +124,42 @@ class SceneRenderer::Impl {
     const Clock::time_point start = Clock::now();
     const csgcore::SceneEdit edit = csgcore::compare(before.scene->scene(), scene_->scene());
     prepare_ms_ += ms_since(start);
-    with_renderer(settings, stats, [&] {
+    with_renderer(drawn, settings, stats, [&](SolidRenderer& renderer) {
       stats.edit.primitives_changed =
           std::max(edit.removed.size(), edit.added.size()) + edit.recolored.size();
-      scene_->redraw(*renderer_, {drawn, settings, stats}, *before.scene, edit, before.image);
+      scene_->redraw(renderer, {drawn, settings, stats}, *before.scene, edit, before.image);
     });
     return std::move(before.image);
   }
 
-  /// Calls `draw`, again with the CPU where kAuto took OpenGL and that fails.
+  /// Calls draw(renderer), again with the CPU where kAuto took OpenGL and that fails, or where its
+  /// shaders are not there yet.
   template <typename Draw>
-  void with_renderer(const RenderSettings& settings, RenderStats& stats, Draw draw) {
+  void with_renderer(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats,
+                     Draw draw) {
     start_stats(stats);
-    if (!renderer_) renderer_ = make_renderer(settings.renderer, stats);
-    stats.reason = reason_;
-    const RenderStats before = stats;
+    RenderStats before = stats;
     try {
-      draw();
-      return;
+      choose_renderer(view, settings, stats);
+      if (renderer_) {
+        renderer_->set_compiles(settings.waits_for_shaders);
+        stats.reason = reason_;
+        draw(*renderer_);
+        return;
+      }
+    } catch (const ShaderMissing&) {
+      warm_up(std::move(renderer_), view, settings);
     } catch (const GlFailure& failure) {
       if (!is_replaceable_) throw;
+      is_replaceable_ = false;
       reason_ = failure.reason();
+      renderer_ = make_cpu_renderer();
     }
-    is_replaceable_ = false;
-    renderer_ = make_cpu_renderer();
+    before.context_ms = stats.context_ms;
     stats = before;
-    stats.reason = reason_;
-    draw();
+    stats.reason = renderer_ ? reason_ : "OpenGL's shaders are not compiled yet";
+    if (!renderer_ && !stand_in_) stand_in_ = make_cpu_renderer();
+    draw(renderer_ ? *renderer_ : *stand_in_);
   }
 
   void start_stats(RenderStats& stats) {
@@ -138,39 +169,71 @@ class SceneRenderer::Impl {
     stats.prepare_ms = std::exchange(prepare_ms_, 0.0);
   }
 
-  std::unique_ptr<SolidRenderer> make_renderer(RendererKind kind, RenderStats& stats) {
-    if (kind == RendererKind::kCpu) return make_cpu_renderer();
-    if (kind == RendererKind::kAuto) {
-      if (const std::optional<std::string> reason = why_no_gpu(folders_)) {
-        reason_ = *reason;
-        return make_cpu_renderer();
+  /// Sees to it that there is a renderer, or one that warms up.
+  void choose_renderer(const csgcore::View& view, const RenderSettings& settings,
+                       RenderStats& stats) {
+    if (warming_.valid()) {
+      const bool is_ready = warming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+      if (!is_ready && !settings.waits_for_shaders) return;
+      renderer_ = warming_.get();
+      renderer_->take_thread();
+      stand_in_.reset();
+    }
+    if (renderer_) return;
+    if (!takes_gl(settings.renderer)) {
+      renderer_ = make_cpu_renderer();
+    } else if (settings.waits_for_shaders) {
+      const Clock::time_point start = Clock::now();
+      try {
+        renderer_ = make_gl_renderer(demands_of(settings));
+      } catch (...) {
+        stats.context_ms = ms_since(start);
+        throw;
       }
-    }
-    const Clock::time_point start = Clock::now();
-    try {
-      GlDemands demands = demands_;
-      demands.takes_software |= kind == RendererKind::kGl;
-      auto renderer = make_gl_renderer(demands);
       stats.context_ms = ms_since(start);
-      is_replaceable_ = kind == RendererKind::kAuto;
-      return renderer;
-    } catch (const GlFailure& failure) {
-      if (kind == RendererKind::kGl) throw;
-      stats.context_ms = ms_since(start);
-      reason_ = failure.reason();
+    } else {
+      warm_up(nullptr, view, settings);
     }
-    return make_cpu_renderer();
+  }
+
+  bool takes_gl(RendererKind kind) {
+    if (kind == RendererKind::kCpu) return false;
+    is_replaceable_ = kind == RendererKind::kAuto;
+    if (!is_replaceable_) return true;
+    const std::optional<std::string> reason = why_no_gpu(folders_);
+    if (reason) reason_ = *reason;
+    return !reason;
+  }
+
+  GlDemands demands_of(const RenderSettings& settings) const {
+    GlDemands demands = demands_;
+    demands.takes_software |= settings.renderer == RendererKind::kGl;
+    return demands;
+  }
+
+  /// Lets another thread start OpenGL, unless it runs already, and draw the picture once, so that
+  /// its shaders are compiled.
+  void warm_up(std::unique_ptr<SolidRenderer> renderer, const csgcore::View& view,
+               RenderSettings settings) {
+    settings.stop = {};
+    settings.progress = {};
+    if (renderer) renderer->leave_thread();
+    warming_ = std::async(std::launch::async, warmed, std::move(renderer), demands_of(settings),
+                          source_, view, settings);
   }
 
   const GpuFolders folders_;
   const GlDemands demands_;
+  ScenePointer source_;  // scaled
   std::shared_ptr<const PreparedScene> scene_;
   int exponent_ = 0;       // of 2, by which the scene is scaled
   double prepare_ms_ = 0;  // not reported yet
   std::unique_ptr<SolidRenderer> renderer_;
-  bool is_replaceable_ = false;  // by the CPU, should it fail
-  std::string reason_;           // for which kAuto chose it
-  Kept kept_;                    // redraw()'s last
+  std::unique_ptr<SolidRenderer> stand_in_;              // while `warming_` holds the renderer
+  std::future<std::unique_ptr<SolidRenderer>> warming_;  // warm_up()
+  bool is_replaceable_ = false;                          // by the CPU, should it fail
+  std::string reason_;                                   // for which kAuto chose it
+  Kept kept_;                                            // redraw()'s last
 };
 
 SceneRenderer::SceneRenderer() : SceneRenderer(GpuFolders{}) {}

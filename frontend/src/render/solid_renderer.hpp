@@ -81,6 +81,12 @@ class SolidRenderer {
 
   /// All solids that were drawn.
   virtual void forget() = 0;
+
+  /// Whether it compiles shaders that it lacks, as at first, or throws ShaderMissing.
+  virtual void set_compiles(bool) {}
+  /// Another thread draws from now on: this one leaves, then that one takes the renderer over.
+  virtual void leave_thread() {}
+  virtual void take_thread() {}
 };
 
 /// Returns the drawing by the CPU tracer, csgcore/tracer.hpp.
@@ -89,6 +95,9 @@ std::unique_ptr<SolidRenderer> make_cpu_renderer();
 /// csgcore::finish_studio() by the CPU, for a picture of one ray a pixel by either renderer.
 void finish_studio(const csgcore::Solid& solid, const PictureRequest& request,
                    csgcore::Image& image);
+
+/// Thrown where OpenGL would have to compile a shader, and must not. The CPU may draw meanwhile.
+struct ShaderMissing {};
 
 /// OpenGL cannot be had, or failed. The CPU may still draw.
 class GlFailure : public Error {

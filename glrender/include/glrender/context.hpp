@@ -12,9 +12,10 @@ namespace glrender {
 class ProgramCache;
 
 /// Owns an EGL display and a surfaceless context, which is current on the thread that made it.
-/// Everything else in glrender must be used on that thread, within the context's lifetime. The
-/// constructor takes the first hardware device (EGL_EXT_platform_device), else Mesa's surfaceless
-/// platform, which llvmpipe serves. It throws GlError.
+/// Everything else in glrender must be used on that thread, within the context's lifetime, unless
+/// another one takes the context over. The constructor takes the first hardware device
+/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, which llvmpipe serves. It throws
+/// GlError.
 class HeadlessContext {
  public:
   HeadlessContext();
@@ -30,8 +31,14 @@ class HeadlessContext {
   uint64_t most_texels() const;
   void set_most_texels(uint64_t most);
 
+  /// Another thread takes the context over: this one leaves it, then that one takes it.
+  void leave_thread();
+  void take_thread();
+
   /// The shaders that were compiled so far: all renderers of the context share them.
   ProgramCache& programs();
+  /// Whether missing ones are compiled, as they are at first, or ShaderMissing is thrown.
+  void set_compiles(bool compiles);
 
  private:
   struct Impl;

@@ -17,4 +17,10 @@ class ListsTooLong : public GlError {
   using GlError::GlError;
 };
 
+/// Thrown in place of compiling a shader, where that must not be (HeadlessContext::set_compiles).
+class ShaderMissing : public GlError {
+ public:
+  ShaderMissing() : GlError("a shader is not compiled yet") {}
+};
+
 }  // namespace glrender

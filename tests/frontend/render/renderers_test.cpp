@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <thread>
 
 #include "frontend/camera.hpp"
 #include "frontend/command.hpp"
@@ -438,6 +439,78 @@ TEST_F(Renderers, AutoTakesTheCpuForMeshesThatTheDriverCannotHold) {
   const RenderStats large = draw(200);
   EXPECT_EQ(large.renderer, "cpu");
   EXPECT_THAT(large.reason, HasSubstr("triangles of meshes need a buffer of"));
+}
+
+/// A window's pictures do not wait for OpenGL: the CPU draws until it has what each of them needs.
+class WithoutWaiting : public Renderers {
+ protected:
+  WithoutWaiting() {
+    CameraOptions camera;
+    camera.width_px = 80;
+    camera.height_px = 60;
+    view_ = make_view({csgcore::Vec3(0), {55, 0, 25}, 60}, camera);
+    settings_.renderer = RendererKind::kGl;
+    settings_.waits_for_shaders = false;
+  }
+  void load(const csgcore::Primitive& primitive) {
+    renderer_.load(std::make_shared<const csgcore::Scene>(
+        test_support::scene_of(csgcore::Op::kUnion, {primitive})));
+  }
+  Drawn draw() {
+    Drawn drawn;
+    drawn.image = renderer_.draw(view_, settings_, drawn.stats);
+    return drawn;
+  }
+  Drawn draw_until_gl() {
+    Drawn drawn = draw();
+    while (drawn.stats.renderer == "cpu") {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      drawn = draw();
+    }
+    return drawn;
+  }
+
+  SceneRenderer renderer_;
+  csgcore::View view_;
+  RenderSettings settings_;
+};
+
+TEST_F(WithoutWaiting, TheCpuDrawsUntilTheShadersAreThere) {
+  load(csgcore::make_sphere(10));
+  const Drawn first = draw();
+  EXPECT_EQ(first.stats.renderer, "cpu");
+  EXPECT_THAT(first.stats.reason, HasSubstr("not compiled yet"));
+  const Drawn ready = draw_until_gl();
+  EXPECT_THAT(ready.stats.renderer, StartsWith("gl: "));
+  EXPECT_EQ(ready.stats.reason, "");
+  EXPECT_LE(different_pixels(first.image, ready.image), kEdgePixels);
+  EXPECT_THAT(draw().stats.renderer, StartsWith("gl: "));
+
+  // Another kind of primitive needs another shader, and its scene may change while that is
+  // compiled.
+  load(csgcore::make_frustum(0, 12, 10, 4));
+  EXPECT_EQ(draw().stats.renderer, "cpu");
+  load(csgcore::make_frustum(0, 14, 10, 5));
+  const Drawn frustum = draw();
+  EXPECT_LE(different_pixels(frustum.image, draw_until_gl().image), kEdgePixels);
+}
+
+TEST_F(WithoutWaiting, WhoeverWaitsHasItAtOnce) {
+  load(csgcore::make_sphere(10));
+  EXPECT_EQ(draw().stats.renderer, "cpu");
+  settings_.waits_for_shaders = true;
+  EXPECT_THAT(draw().stats.renderer, StartsWith("gl: "));
+}
+
+TEST_F(WithoutWaiting, OpenGlThatCannotBeHadIsToldLater) {
+  feign_gpu();
+  renderer_ = SceneRenderer(folders_, {.most_texels = 1});
+  settings_.renderer = RendererKind::kAuto;
+  load(csgcore::make_mesh(test_support::torus_parts(3, 1, 20, 10).mesh()));
+  RenderStats stats = draw().stats;
+  while (stats.reason.find("not compiled yet") != std::string::npos) stats = draw().stats;
+  EXPECT_EQ(stats.renderer, "cpu");
+  EXPECT_THAT(stats.reason, Not(testing::IsEmpty()));
 }
 
 /// Runs in a process of its own, whose EGL finds no driver.
