@@ -174,21 +174,21 @@ ProfileCrossings extrusion_crossings(CanonicalRay ray, ExtrusionLine line, float
 
 // A face's number is negative where the ray leaves the solid.
 Stretch extrusion_stretch(Ray world, CanonicalRay ray, float t) {
-  const Stretch NONE = Stretch(false, INFINITY, 0);
+  Stretch none = Stretch(false, INFINITY, 0);
   ExtrusionLine line;
-  if (!find_line(ray, line)) return NONE;
+  if (!find_line(ray, line)) return none;
   float first = ray.base_t + line.first_t;
   float last = ray.base_t + line.last_t;
-  if (!(t < last && first < last)) return NONE;
+  if (!(t < last && first < last)) return none;
   bool is_before = t < first;
   Stretch result = Stretch(false, max(t, first), EXTRUSION_CAP);
   for (;;) {
     ProfileCrossings crossings = extrusion_crossings(ray, line, result.end);
-    if (unfinished) return NONE;
+    if (unfinished) return none;
     bool inside = is_filled(ray, crossings.turns_behind);
     if (is_before && inside) return result;
     is_before = false;
-    if (!(crossings.next < last)) return inside ? Stretch(true, last, -EXTRUSION_CAP) : NONE;
+    if (!(crossings.next < last)) return inside ? Stretch(true, last, -EXTRUSION_CAP) : none;
     result = Stretch(inside, crossings.next, inside ? -crossings.next_piece : crossings.next_piece);
     if (is_filled(ray, crossings.turns_behind - crossings.next_turns) != inside) return result;
   }

@@ -17,7 +17,7 @@ struct Hit {
   float speed;  // see crossing_speed; 0 until asked for
 };
 
-const Hit NO_HIT = Hit(INFINITY, 0u, 0, false, 0.0);
+#define NO_HIT Hit(INFINITY, 0u, 0, false, 0.0)
 
 Hit start_of(Segment segment, BlistTest test) {
   return Hit(segment.start, test.primitive, segment.start_face, test.complement, 0.0);

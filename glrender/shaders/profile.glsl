@@ -29,7 +29,7 @@ struct ProfileCrossings {
   int next_piece;
 };
 
-const ProfileCrossings NO_CROSSINGS = ProfileCrossings(0, INFINITY, 0, 0);
+#define NO_CROSSINGS ProfileCrossings(0, INFINITY, 0, 0)
 
 void note_crossing(inout ProfileCrossings crossings, float t, float at, int turn, int piece) {
   if (!(at > t)) return;

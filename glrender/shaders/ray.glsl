@@ -17,8 +17,8 @@
 #define PRECISE
 #endif
 
-const float INFINITY = uintBitsToFloat(0x7F800000u);
-const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // the largest t of a ray
+#define INFINITY uintBitsToFloat(0x7F800000u)  // no constant for Khronos' compiler
+#define LAST_T uintBitsToFloat(0x7F7FFFFFu)  // the largest t of a ray
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
 uniform usamplerBuffer u_surfaces;  // per primitive: colour, flags, id
@@ -50,7 +50,7 @@ struct BlistTest {
   uint if_inside, if_outside;
 };
 
-const Segment NO_SEGMENT = Segment(INFINITY, -INFINITY, 0, 0);
+#define NO_SEGMENT Segment(INFINITY, -INFINITY, 0, 0)
 
 Ray pixel_ray() {
   vec2 ndc = (2.0 * (gl_FragCoord.xy + u_displacement) - u_viewport) / u_viewport;

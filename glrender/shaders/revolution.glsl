@@ -357,13 +357,13 @@ ProfileCrossings revolution_crossings(CanonicalRay ray, RevolutionPath path, flo
 
 // A face's number is its piece's first texel, negative where the ray leaves the solid.
 Stretch revolution_stretch(Ray world, CanonicalRay ray, float t) {
-  const Stretch NONE = Stretch(false, INFINITY, 0);
+  Stretch none = Stretch(false, INFINITY, 0);
   RevolutionPath path;
-  if (!find_path(ray, path)) return NONE;
+  if (!find_path(ray, path)) return none;
   Stretch result = Stretch(false, t, 0);
   for (;;) {
     ProfileCrossings crossings = revolution_crossings(ray, path, result.end);
-    if (unfinished || crossings.next == INFINITY) return NONE;
+    if (unfinished || crossings.next == INFINITY) return none;
     bool inside = is_filled(ray, crossings.turns_behind);
     result = Stretch(inside, crossings.next, inside ? -crossings.next_piece : crossings.next_piece);
     if (is_filled(ray, crossings.turns_behind - crossings.next_turns) != inside) return result;

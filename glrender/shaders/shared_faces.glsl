@@ -116,17 +116,17 @@ Hit start_beside(Ray ray, Hit hit, uint index, BlistTest test) {
 // Returns whether a face other than the hit's own may start the solid there (most often none does).
 // `last` is the last in file order of all faces that start a primitive or complement there.
 bool is_shared(Ray ray, Hit hit, out Hit last) {
-  bool shared = false;
+  bool is_common = false;
   last = hit;
   for (uint i = 0u; i < v_list.y; ++i) {
     BlistTest test = fetch_test(v_list.x + i);
     if (test.primitive == hit.primitive) continue;
     Hit start = start_beside(ray, hit, i, test);
     bool near = too_thin(abs(start.t - hit.t), hit.speed);
-    shared = shared || near;
+    is_common = is_common || near;
     if (near && test.primitive > last.primitive) last = start;
   }
-  return shared;
+  return is_common;
 }
 
 // Returns the state of a test.
@@ -244,8 +244,8 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
   other = with_speed(ray, other);
   seen = hit;
   float speed = max(hit.speed, other.speed);
-  bool shared = too_thin(abs(other.t - hit.t), speed) && !too_thin(segment.end - segment.start, speed);
-  if (other.primitive > hit.primitive && shared) seen = other;
+  bool is_common = too_thin(abs(other.t - hit.t), speed) && !too_thin(segment.end - segment.start, speed);
+  if (other.primitive > hit.primitive && is_common) seen = other;
   return true;
 }
 

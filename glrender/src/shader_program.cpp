@@ -61,11 +61,14 @@ std::string shader_log(GLuint shader) {
   return log;
 }
 
-/// Compiles the parts as one source and attaches the result to the program.
-void attach(GLuint program, GLenum stage, const ProgramKey& key,
-            std::initializer_list<std::string_view> parts) {
+std::string joined(const ProgramKey& key, std::initializer_list<std::string_view> parts) {
   std::string source = prologue(key);
   for (const std::string_view part : parts) source += part;
+  return source;
+}
+
+/// Compiles the source and attaches the result to the program.
+void attach(GLuint program, GLenum stage, const std::string& source) {
   const char* text = source.c_str();
   const GLuint shader = glCreateShader(stage);
   glShaderSource(shader, 1, &text, nullptr);
@@ -80,20 +83,27 @@ void attach(GLuint program, GLenum stage, const ProgramKey& key,
 
 }  // namespace
 
-Program compile_program(const ProgramKey& key) {
-  Program program = Program::make();
-  attach(program.name(), GL_VERTEX_SHADER, key,
-         {shader_source::kFrame, key.tiles ? shader_source::kTileVert : shader_source::kCellVert});
+ProgramSources program_sources(const ProgramKey& key) {
+  ProgramSources sources;
+  sources.vertex = joined(key, {shader_source::kFrame,
+                                key.tiles ? shader_source::kTileVert : shader_source::kCellVert});
   const std::string kinds = kinds_source(key.enclosures, key.cuts, key.nonconvex);
   if (key.path == Path::kBoxes) {
-    attach(program.name(), GL_FRAGMENT_SHADER, key,
-           {shader_source::kFrame, shader_source::kRay, kinds, shader_source::kShade,
-            shader_source::kBoxFrag});
+    sources.fragment = joined(key, {shader_source::kFrame, shader_source::kRay, kinds,
+                                    shader_source::kShade, shader_source::kBoxFrag});
   } else {
-    attach(program.name(), GL_FRAGMENT_SHADER, key,
-           {shader_source::kFrame, shader_source::kRay, kinds, shader_source::kShade,
-            shader_source::kFirstHit, shader_source::kSharedFaces, shader_source::kTraceFrag});
+    sources.fragment = joined(
+        key, {shader_source::kFrame, shader_source::kRay, kinds, shader_source::kShade,
+              shader_source::kFirstHit, shader_source::kSharedFaces, shader_source::kTraceFrag});
   }
+  return sources;
+}
+
+Program compile_program(const ProgramKey& key) {
+  Program program = Program::make();
+  const ProgramSources sources = program_sources(key);
+  attach(program.name(), GL_VERTEX_SHADER, sources.vertex);
+  attach(program.name(), GL_FRAGMENT_SHADER, sources.fragment);
   glLinkProgram(program.name());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);

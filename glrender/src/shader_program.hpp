@@ -28,6 +28,12 @@ struct ProgramKey {
   auto operator<=>(const ProgramKey&) const = default;
 };
 
+/// GLSL 3.30.
+struct ProgramSources {
+  std::string vertex, fragment;
+};
+ProgramSources program_sources(const ProgramKey& key);
+
 /// Compiles and links one variant. Throws GlError with the driver's log.
 Program compile_program(const ProgramKey& key);
 
