@@ -76,10 +76,7 @@ class Run {
 
   /// Imports the model alone: `%` parts do not belong to it, and `#` parts overlay it.
   Design import(const std::string& input) {
-    frontend::DesignFileOptions reading;
-    reading.import = options_.import;
-    reading.openscad_arguments = options_.openscad_arguments;
-    reading.evaluator = options_.evaluator;
+    frontend::DesignFileOptions reading{options_};
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) say(line);
     };

@@ -84,10 +84,7 @@ Options parse_options(const std::vector<std::string>& words) {
   frontend::read_image_size(arguments, options.camera);
   const std::string warning = frontend::read_camera(arguments, options.camera);
   if (!warning.empty()) frontend::fail(warning, {});
-  options.openscad_arguments = frontend::openscad_arguments_of(arguments);
-  options.evaluator =
-      frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);
-  options.import.language = frontend::read_language(arguments);
+  frontend::read_reading_options(arguments, options);
   frontend::RenderSettings render;
   frontend::read_cells_and_threads(arguments, render);
   Settings& settings = options.settings;

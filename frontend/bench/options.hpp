@@ -16,13 +16,10 @@
 namespace bench {
 
 /// The checked command line: every value is in its documented range.
-struct Options {
+struct Options : frontend::ReadingOptions {
   frontend::ProgramRequest request{};
   std::vector<std::string> inputs;  // at least one; "-", at most once: standard input
   frontend::CameraOptions camera;
-  frontend::ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
-  frontend::Evaluator evaluator = frontend::kDefaultEvaluator;
   Settings settings;
   bool json = false;
   bool quiet = false;

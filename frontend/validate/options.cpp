@@ -88,10 +88,7 @@ Options parse_options(const std::vector<std::string>& words) {
       arguments.number("time-limit", 0.0, kLongestLimit_s, settings.time_limit_s);
   settings.renderer = frontend::read_renderer(arguments);
   if (const char* error = std::getenv(kPlantedErrorVariable)) settings.planted_error = error;
-  options.openscad_arguments = frontend::openscad_arguments_of(arguments);
-  options.evaluator =
-      frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);
-  options.import.language = frontend::read_language(arguments);
+  frontend::read_reading_options(arguments, options);
   return options;
 }
 

@@ -15,13 +15,10 @@
 namespace validation {
 
 /// The checked command line: every value is in its documented range.
-struct Options {
+struct Options : frontend::ReadingOptions {
   frontend::ProgramRequest request{};
   std::string input;   // "-": standard input
   std::string report;  // empty: none; "-": standard output
-  frontend::ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
-  frontend::Evaluator evaluator = frontend::kDefaultEvaluator;
   Settings settings;
   unsigned threads = 0;  // 0: as many as the machine has
   bool quiet = false;

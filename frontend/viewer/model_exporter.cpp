@@ -91,11 +91,9 @@ void ModelExporter::make(const ModelOrder& order, const std::stop_token& stop,
       frontend::design_inputs(options.input, options.openscad_arguments);
   frontend::check_outputs_differ({&output, 1}, inputs);
 
-  frontend::DesignFileOptions reading;
+  frontend::DesignFileOptions reading{options};
   reading.import = frontend::options_for_export(options.import);
   reading.import.tolerance = options.model_tolerance;
-  reading.openscad_arguments = options.openscad_arguments;
-  reading.evaluator = options.evaluator;
   reading.import.language = order.inputs.language.value_or(options.import.language);
   reading.inputs = order.inputs;
   reading.camera = language::CameraChoice::kWindow;

@@ -65,10 +65,7 @@ std::string default_picture(const std::string& input) {
 }
 
 frontend::FollowOptions follow_options(const frontend::Options& options) {
-  frontend::FollowOptions result;
-  result.openscad_arguments = options.openscad_arguments;
-  result.evaluator = options.evaluator;
-  result.import = options.import;
+  frontend::FollowOptions result{options};
   result.import.keeps_places = true;
   result.import.keeps_meshes = true;  // edges may be switched on at any time
   return result;

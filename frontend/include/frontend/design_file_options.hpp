@@ -47,11 +47,15 @@ struct DesignMessage {
 
 using DesignMessageSink = std::function<void(const DesignMessage&)>;
 
-struct DesignFileOptions {
-  ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
+/// What every program that reads designs is told of them.
+struct ReadingOptions {
+  ImportOptions import{};
+  std::vector<std::string> openscad_arguments{};  // OpenSCAD's, for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
-  DesignInputs inputs;
+};
+
+struct DesignFileOptions : ReadingOptions {
+  DesignInputs inputs{};
   language::CameraChoice camera{};
   language::ViewCamera view{};  // of the command line
   /// What text_in_memory() has given of the design before; nothing: it is asked.
@@ -68,9 +72,9 @@ struct DesignFileOptions {
   /// vain, also where the evaluation fails.
   std::function<void(std::vector<std::string> paths)> watch{};
   /// Called with each message of the evaluation; an echoed string can give it several lines.
-  DesignMessageSink message;
+  DesignMessageSink message{};
   /// Called with the name of the current stage; during a .scad's export, many times.
-  std::function<void(const char* stage)> progress;
+  std::function<void(const char* stage)> progress{};
 };
 
 }  // namespace frontend

@@ -17,10 +17,7 @@
 
 namespace frontend {
 
-struct FollowOptions {
-  std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
-  Evaluator evaluator = Evaluator::kOpenScad;
-  ImportOptions import;
+struct FollowOptions : ReadingOptions {
   /// Look at the files at intervals only, as if the system could not watch them. By default only
   /// those are looked at that the system cannot watch: missing files, and files on file systems
   /// that other machines may write to.

@@ -55,7 +55,7 @@ struct GivenLook {
 };
 
 /// The whole command line, checked: every value is in its documented range.
-struct Options {
+struct Options : ReadingOptions {
   Action action = Action::kDraw;
   std::string input;                        // "-": standard input
   std::vector<std::string> further_inputs;  // kOpenWindow: each of them gets a window of its own
@@ -69,21 +69,18 @@ struct Options {
   SummaryParts summary;
   std::string summary_path;  // of the summary, as JSON; "-": standard output; empty: as text, on
                              // standard error
-  Evaluator evaluator = kDefaultEvaluator;
-  std::string stats_path;  // empty: none; "-": standard output
-  std::string editor;      // --editor; empty: the environment tells it
-  bool pans_far = false;   // --pan: in the window, as far as OpenSCAD
-  std::string rule_path;   // the rule for make that lists the outputs' sources; empty: none
+  std::string stats_path;    // empty: none; "-": standard output
+  std::string editor;        // --editor; empty: the environment tells it
+  bool pans_far = false;     // --pan: in the window, as far as OpenSCAD
+  std::string rule_path;     // the rule for make that lists the outputs' sources; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // --imgsize is given
   bool resets_window = false;   // the window forgets what it remembers, but the designs
   GivenLook given;
   Overlays overlays;
-  ImportOptions import;
   RenderSettings render;
-  std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
-  std::vector<std::string> handed_arguments;    // OpenSCAD's, for `handed`
-  std::vector<std::string> warnings;            // ignored options, without the word "warning"
+  std::vector<std::string> handed_arguments;  // OpenSCAD's, for `handed`
+  std::vector<std::string> warnings;          // ignored options, without the word "warning"
   uint32_t frames = 0;  // frames of an animation, each in files of its own; 0: a single picture
   /// The frames that are drawn: first_frame <= i < end_frame.
   uint32_t first_frame = 0;

@@ -110,20 +110,21 @@ language::LanguageVersion read_language(const Arguments& arguments) {
   return choice(arguments, "language", kLanguages, version ? *version : kDefaultLanguage);
 }
 
-std::vector<std::string> openscad_arguments_of(const Arguments& arguments) {
-  std::vector<std::string> result;
+void read_reading_options(const Arguments& arguments, ReadingOptions& options) {
+  options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
+  options.import.language = read_language(arguments);
+  std::vector<std::string>& handed = options.openscad_arguments;
   arguments.for_each([&](const std::string& option, const std::string& value) {
     if (option == "D" || option == "p" || option == "P" || option == "m") {
-      result.insert(result.end(), {"-" + option, value});
+      handed.insert(handed.end(), {"-" + option, value});
     } else if (option == "check-parameters" || option == "check-parameter-ranges" ||
                option == "enable" || option == "trace-depth" ||
                option == "trace-usermodule-parameters") {
-      result.push_back("--" + option + "=" + value);
+      handed.push_back("--" + option + "=" + value);
     } else if (option == "hardwarnings") {
-      result.push_back("--hardwarnings");
+      handed.push_back("--hardwarnings");
     }
   });
-  return result;
 }
 
 std::vector<std::string> handed_arguments_of(const Arguments& arguments, bool has_summary_file) {

@@ -130,9 +130,10 @@ std::string read_camera(const Arguments& arguments, CameraOptions& camera);
 RendererKind read_renderer(const Arguments& arguments);
 /// Returns the version of the language, which the environment sets where the option does not.
 language::LanguageVersion read_language(const Arguments& arguments);
-/// Returns the options of an evaluation, as they are handed on to openscad: -D, -p, -P, -m,
-/// --hardwarnings, --check-parameters, --check-parameter-ranges, --enable, --trace-….
-std::vector<std::string> openscad_arguments_of(const Arguments& arguments);
+/// Reads how designs are read: --evaluator, the language, and what is handed on to openscad as it
+/// is: -D, -p, -P, -m, --hardwarnings, --check-parameters, --check-parameter-ranges, --enable,
+/// --trace-….
+void read_reading_options(const Arguments& arguments, ReadingOptions& options);
 
 /// Returns those of OpenSCAD's options that are handed on to it where it writes an output: all but
 /// those of outputs and frames, and --summary-file only where it is openscad that writes it.

@@ -147,11 +147,8 @@ class Run {
   }
 
   DesignFile read() {
-    DesignFileOptions reading;
-    reading.import = options_.import;
+    DesignFileOptions reading{options_};
     reading.import.measures_leaves = sees_all(options_.camera);
-    reading.openscad_arguments = options_.openscad_arguments;
-    reading.evaluator = options_.evaluator;
     reading.camera = camera_choice(options_);
     reading.view = view_of(options_);
     reading.text = text_;

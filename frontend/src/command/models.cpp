@@ -69,11 +69,9 @@ class ModelRun {
   }
 
   DesignFile read(uint32_t frame) {
-    DesignFileOptions reading;
+    DesignFileOptions reading{options_};
     reading.import = options_for_export(options_.import);
     reading.import.tolerance = options_.model_tolerance;
-    reading.openscad_arguments = options_.openscad_arguments;
-    reading.evaluator = options_.evaluator;
     reading.view = view_of(options_);
     reading.text = text_;
     reading.inputs.time = frame_time(options_, frame);

@@ -479,12 +479,10 @@ Options parse_options(const std::vector<std::string>& words) {
   read_studio(arguments, options);
   check_inputs(options);
   leave_out_crosshairs(options);
-  options.openscad_arguments = openscad_arguments_of(arguments);
+  read_reading_options(arguments, options);
   options.handed_arguments =
       handed_arguments_of(arguments, options.models.empty() && options.outputs.empty());
   options.resets_window = arguments.has("reset-window-settings");
-  options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
-  options.import.language = read_language(arguments);
   choice(arguments, "messages", kMessageFormats, MessageFormat::kText);  // MessageWriter reads it
   options.has_hard_warnings = arguments.has("hardwarnings");
   warn_of_what_is_ignored(arguments, options);

@@ -187,11 +187,8 @@ class DesignFollower::Follower {
   }
 
   DesignFileOptions file_options() {
-    DesignFileOptions options;
-    options.import = options_.import;
+    DesignFileOptions options{options_};
     options.import.solids = solids_;
-    options.openscad_arguments = options_.openscad_arguments;
-    options.evaluator = options_.evaluator;
     options.camera = language::CameraChoice::kWindow;
     options.cache = cache_;
     options.progress = [this](const char* stage) { activity_.update(stage); };
