@@ -202,9 +202,9 @@ void Server::open(const Json& params) {
   const Json& document = document_of(params);
   const std::string uri = text_of(document, "uri"), key = key_of(params);
   auto text = std::make_shared<const Text>(text_of(document, "text"));
+  const uint32_t version = number_of(member_of(document, "version"));
   uris_[key] = uri;
-  workspace_.open(key, path_of_uri(uri), number_of(member_of(document, "version")),
-                  std::move(text));
+  workspace_.open(key, path_of_uri(uri), version, std::move(text));
   sources_.invalidate(true);
 }
 

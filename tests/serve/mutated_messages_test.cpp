@@ -121,7 +121,7 @@ TEST(MutatedMessages, AreAnsweredOrLogged) {
       });
   server.handle({{"jsonrpc", "2.0"}, {"id", 0}, {"method", "initialize"}});
   Mutator mutator(1);
-  const int count = test_support::full_run() ? 100'000 : 3000;
+  const int count = test_support::full_run() ? 1'000'000 : 3000;
   for (int i = 0; i < count; ++i) {
     if (i % 50 == 0) server.handle(messages[0]);
     Json message = messages[mutator.pick(messages.size())];

@@ -74,6 +74,15 @@ TEST(Session, AWrongNotificationIsLogged) {
   EXPECT_EQ(client.sent.size(), 1u);
 }
 
+TEST(Session, ADocumentThatCouldNotBeOpenedIsNotOpen) {
+  const TemporaryFolder folder;
+  Client client;
+  const Json broken = {{"uri", uri_of_path(folder / "a.scad")}, {"version", "1"}, {"text", ""}};
+  client.notify("textDocument/didOpen", {{"textDocument", broken}});
+  client.open(folder / "b.scad", "cube(;");
+  EXPECT_EQ(client.said(folder / "b.scad").size(), 1u);
+}
+
 TEST(Session, ChoosesUtf8IfItIsOffered) {
   const TemporaryFolder folder;
   Client client(language::LanguageVersion::k2021,
