@@ -4,7 +4,6 @@
 
 #include "command/arguments.hpp"
 #include "command/option_words.hpp"
-#include "follow/evaluated_design.hpp"
 
 namespace serve {
 namespace {
@@ -40,11 +39,8 @@ void read_http(const frontend::Arguments& arguments, std::vector<std::string> fi
     constexpr uint16_t kMost = 65535;
     options.port = arguments.number<uint16_t>("http", 1, kMost, 0);
   }
-  if (files.size() != 1) frontend::fail("--http shows one design", "name one .scad");
+  if (files.size() != 1) frontend::fail("--http shows one design", "name its file");
   options.design = files[0];
-  const frontend::DesignKind kind = frontend::kind_of(options.design);
-  if (kind == frontend::DesignKind::kCsg || kind == frontend::DesignKind::kImported)
-    frontend::fail(options.design + " is no .scad", "name one, or open it with `scadray`");
   options.bind = arguments.has("bind") ? arguments.text("bind") : options.bind;
   options.origin = arguments.text_or_empty("origin");
   options.panel = arguments.text_or_empty("panel");

@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "follow/evaluated_design.hpp"
 #include "fonts/text_meter.hpp"
+#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "language/stopped.hpp"
@@ -21,10 +23,18 @@ using language::TextOverlay;
 constexpr std::size_t kMostSaid = 1000;   // and as many echoes
 constexpr std::size_t kMostBytes = 4000;  // of each
 
+/// Returns the text of a design's file; of a mesh or a drawing, that of a design that imports it.
+/// Throws frontend::Error.
+frontend::FileText text_of_file(const std::string& path) {
+  const bool is_imported = frontend::kind_of(path) == frontend::DesignKind::kImported;
+  const auto text = is_imported ? frontend::text_in_memory(path) : std::nullopt;
+  return text ? *text : frontend::read_regular_file(path);
+}
+
 /// Takes a file's text as it is now; the same object if it has not changed.
 Document read_again(Document document) {
   try {
-    const frontend::FileText text = frontend::read_regular_file(document.path);
+    const frontend::FileText text = text_of_file(document.path);
     document.problem.clear();
     if (document.text && document.text->bytes() == text.view()) return document;
     document.text = std::make_shared<const Text>(std::string(text.view()));
@@ -129,6 +139,7 @@ Evaluated evaluate(const Document& document, const TextOverlay& overlay,
   options.overlay = &overlay;
   options.text_meter = frontend::make_text_meter();
   options.wants_values = true;
+  options.has_all_digits = frontend::kind_of(document.path) != frontend::DesignKind::kCsg;
   SaidCollector collector(document, result.said);
   language::Evaluation evaluation = language::evaluate(
       document.path, options, [&](const language::SaidLine& line) { collector.take(line); },

@@ -252,6 +252,50 @@ TEST(Preview, FollowsAFileThatIsNotOpen) {
   EXPECT_THAT(client.client.said(client.path), IsEmpty());
 }
 
+TEST(Preview, ShowsACsgWithItsRoundedNumbersMended) {
+  // Six digits of a turn leave it no rotation.
+  const std::string csg =
+      "multmatrix([[-0.980785, -0.19509, 0, 5], [0.19509, -0.980785, 0, 5], [0, 0, 1, 0],"
+      " [0, 0, 0, 1]]) { multmatrix([[1, 0, 0, 0], [0, 0.5, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])"
+      " { sphere($fn = 0, $fa = 12, $fs = 2, r = 8); } }\n"
+      "group() { cube(size = [2, 2, 9], center = false); }\n";
+  const Json place = {{"camera", kTop}, {"x", 84}, {"y", 58}};
+  PreviewClient typed("translate([5, 5, 0]) rotate(168.75) scale([1, 0.5, 1]) sphere(8);");
+  typed.final_frame();
+  const double normal = typed.request("pick", place)["normal"][0];
+  PreviewClient client;
+  client.path = client.folder / "a.csg";
+  client.folder.write("a.csg", csg);
+  client.begin({{"camera", kTop}});
+  EXPECT_EQ(client.design()["ok"], true);
+  const frontend::Bytes seen = client.final_frame().image;
+  EXPECT_NEAR(client.request("pick", place)["normal"][0], normal, 1e-9);
+  client.notify("cursor", {{"position", {{"line", 1}, {"character", 0}}}});
+  EXPECT_NE(client.final_frame().image, seen);
+  client.folder.write("a.csg", csg + "cube(;");
+  EXPECT_EQ(client.design()["ok"], false);
+}
+
+TEST(Preview, ShowsAMesh) {
+  const std::string tetrahedron =
+      "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  PreviewClient client;
+  client.path = client.folder / "a.off";
+  client.folder.write("a.off", tetrahedron);
+  client.folder.write("b.off", tetrahedron);
+  client.begin({{"camera", kTop}});
+  const frontend::Bytes seen = client.final_frame().image;
+  EXPECT_EQ(seen, fresh_picture("polyhedron([[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]],"
+                                " [[1, 2, 0], [3, 1, 0], [3, 2, 1], [3, 0, 2]]);"));
+  EXPECT_EQ(client.request("exportModel", {{"path", "a.off"}})["code"], -32803);
+  EXPECT_EQ(client.folder.read("a.off"), tetrahedron);
+  EXPECT_TRUE(client.request("exportModel", {{"path", "a.stl"}}).contains("path"));
+  std::string wider = tetrahedron;
+  wider.replace(wider.find("9 0 0"), 1, "8");
+  client.folder.write("a.off", wider);
+  EXPECT_NE(client.final_frame().image, seen);
+}
+
 TEST(Preview, SaysWhenItsFileIsGone) {
   PreviewClient client;
   client.folder.write("a.scad", "cube(4);");

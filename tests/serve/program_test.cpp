@@ -188,7 +188,7 @@ TEST(ServeProgram, HasACommandLine) {
   for (const auto& [words, error] : std::vector<std::pair<std::string, std::string>>{
            {"--http", "--http shows one design"},
            {"--http=8080" + design + design, "--http shows one design"},
-           {"--http a.csg", "a.csg is no .scad"},
+           {"--http none.stl", "none.stl"},
            {"--http=99999" + design, "--http"},
            {"--bind=127.0.0.1", "--bind has no effect without --http"},
            {"--http --panel=/none" + design, "holds no panel for browsers"}}) {

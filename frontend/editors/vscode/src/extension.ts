@@ -100,7 +100,7 @@ class Previews {
 
   private async writeOf(preview: PreviewPanel, what: 'picture' | 'model'): Promise<void> {
     const isModel = what === 'model';
-    const path = preview.uri.path.replace(/\.scad$/, '') + (isModel ? '.stl' : '.png');
+    const path = preview.uri.path.replace(/\.[^./]*$/, '') + (isModel ? '.stl' : '.png');
     const asked: vscode.SaveDialogOptions = {
       filters: isModel
         ? { Solids: ['stl', '3mf', 'off', 'obj', 'amf'], 'Plane figures': ['svg', 'dxf', 'pdf'] }

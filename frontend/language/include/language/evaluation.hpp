@@ -62,6 +62,7 @@ struct EvaluationOptions {
   std::shared_ptr<TextMeter> text_meter;  // null: textmetrics() and fontmetrics() find no font
   const TextOverlay* overlay = nullptr;   // texts of included and used files; null: they are read
   bool wants_values = false;              // Evaluation::values
+  bool has_all_digits = true;             // NodeTree's: the text is no .csg
 };
 
 enum class Outcome : uint8_t {

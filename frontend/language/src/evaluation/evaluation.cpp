@@ -337,6 +337,7 @@ void Session::parse_and_evaluate() {
 Evaluation Session::run() {
   with_deep_stack(program_->dialect.most_symbols, [this] { parse_and_evaluate(); });
   result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
+  tree_->has_all_digits = options_.has_all_digits;
   result_.tree = std::move(tree_);
   return std::move(result_);
 }

@@ -36,8 +36,11 @@ export class SaveSheet implements Sheet {
 
   opened(): void {
     if (this.path.value) return;
-    const suffix = this.what === 'picture' ? '.png' : this.preview.design?.plane ? '.svg' : '.stl';
-    this.path.value = nameOf(this.preview.uri).replace(/\.[^.]*$/, '') + suffix;
+    const suffixes = this.what === 'picture' ? ['.png'] : this.preview.design?.plane ? ['.svg', '.dxf'] : ['.stl', '.3mf'];
+    // A mesh or a drawing that is shown is not to be replaced by what it is exported to.
+    const design = nameOf(this.preview.uri);
+    const names = suffixes.map((suffix) => design.replace(/\.[^.]*$/, '') + suffix);
+    this.path.value = names.find((name) => name !== design)!;
   }
 
   private write(event: Event): void {
