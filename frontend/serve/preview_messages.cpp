@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
@@ -21,6 +22,8 @@ constexpr double kFieldOfView_deg = 22.5;  // of every picture
 constexpr double kMostSide_px = 4096;
 /// Farther numbers are no places of a design.
 constexpr double kFar = 1e12;
+/// A unit vector of a client may be rounded.
+constexpr double kLengthError = 1e-6;
 
 double finite(const Json& json, const std::string& what) {
   const double number = json.is_number() ? json.get<double>() : std::nan("");
@@ -47,9 +50,10 @@ window::SectionPlane section_of(const Json& json) {
   window::SectionPlane section;
   if (json.is_null()) return section;
   section.is_on = true;
-  const double axis = number_of(json, "axis", 0, 2);
-  if (axis != std::floor(axis)) throw invalid("\"axis\" is none of 0, 1 and 2");
-  section.normal = window::axis_of(static_cast<uint8_t>(axis));
+  const Vec3 normal = vector_of(json, "normal");
+  const double length = glm::length(normal);
+  if (!(std::abs(length - 1) < kLengthError)) throw invalid("\"normal\" has not the length 1");
+  section.normal = normal / length;
   section.position = finite(member_of(json, "position"), "position");
   section.is_flipped = flag_of(json, "flipped");
   return section;
@@ -312,6 +316,7 @@ Json json_of(const window::Finding& finding, const PlaceForms& places) {
   const window::PaintOrder& order = finding.probe.order;
   Json json = {{"position", json_of(finding.position)},
                {"normal", json_of(finding.normal)},
+               {"flat", finding.surface.kind == Surface::Kind::kPlane},
                {"leaf", finding.place.step().what},
                {"places", Json::array()}};
   if (finding.primitive) {

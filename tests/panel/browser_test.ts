@@ -210,6 +210,64 @@ panelTest('a section plane cuts the design open', async (panel, page) => {
   assert.equal(await panel.pixels(), plain);
 });
 
+panelTest('a section plane lies along a face, through three points and at any angle', async (panel, page) => {
+  let shown = await panel.frame();
+  const seen = [await panel.pixels()];
+  const normal = () => Promise.all(['x', 'y', 'z'].map(async (axis) => Number(await page.locator(`input[aria-label="Normal, ${axis}"]`).inputValue())));
+  const next = async () => {
+    shown = await panel.frame(shown);
+    seen.push(await panel.pixels());
+  };
+  await page.locator('.picture').focus();
+  await page.keyboard.press('Shift+F');
+  assert.match(await panel.text('.status'), /Click on a flat face first/);
+  await page.keyboard.press('Shift+C');
+  assert.match(await panel.text('.status'), /Click on three points first/);
+  await page.keyboard.press('8');
+  assert.doesNotMatch(await panel.text('.status'), /Click/);
+  shown = await panel.frame(shown);
+  await page.mouse.click(300, 270); // the front of the box
+  await page.locator('.card').waitFor();
+  await page.keyboard.press('Shift+F');
+  await next();
+  assert.deepEqual((await normal()).map(Math.abs), [0, 1, 0]);
+  await page.keyboard.press('0');
+  await next();
+  await page.keyboard.press('Control+ArrowUp');
+  await next();
+  const [x, y, z] = await normal();
+  assert.ok(Math.abs(Math.hypot(x!, y!, z!) - 1) < 1e-3 && Math.abs(y!) < 1, `${x}, ${y}, ${z}`);
+  await page.mouse.move(300, 225);
+  await page.keyboard.down('Control');
+  await page.keyboard.down('Shift');
+  await page.mouse.down();
+  await page.mouse.move(340, 240, { steps: 4 });
+  await page.mouse.up();
+  await page.keyboard.up('Shift');
+  await page.keyboard.up('Control');
+  await next();
+  await page.locator('input[aria-label="Normal, z"]').fill('2');
+  await next();
+  assert.ok((await normal())[0]! < 1, 'the others follow what is typed');
+  await panel.screenshot('tilted_section');
+  await page.keyboard.press('Escape');
+  await page.locator('.picture').focus();
+  await page.keyboard.press('c');
+  await panel.frame(shown);
+  assert.equal(await panel.pixels(), seen[0]);
+  await page.keyboard.press('4');
+  shown = await panel.frame(shown);
+  await page.keyboard.down('Alt');
+  for (const [x, y] of [[270, 200], [330, 200], [290, 240]] as const) await page.mouse.click(x, y);
+  await page.keyboard.up('Alt');
+  await page.locator('.card').waitFor();
+  await page.waitForTimeout(100);
+  await page.keyboard.press('Shift+C');
+  await next();
+  assert.deepEqual((await normal()).map(Math.abs), [0, 0, 1]);
+  assert.equal(new Set(seen).size, seen.length);
+});
+
 panelTest('an error stands over the last good picture', async (panel, page) => {
   await panel.frame();
   const good = await panel.pixels();

@@ -252,7 +252,8 @@ TEST_F(HttpTest, MutatedMessagesEndNoServer) {
       {"x", 5},
       {"y", 5},
       {"number", 1},
-      {"look", {{"width", 40}, {"section", {{"axis", 1}, {"position", 1}, {"flipped", true}}}}},
+      {"look",
+       {{"width", 40}, {"section", {{"normal", {0, 1, 0}}, {"position", 1}, {"flipped", true}}}}},
       {"textDocument", {{"uri", uri_of_path(folder_ / "a.scad")}}},
       {"position", {{"line", 1}, {"character", 1}}},
       {"values", {{"size", 2}}},
@@ -263,7 +264,7 @@ TEST_F(HttpTest, MutatedMessagesEndNoServer) {
   constexpr const char* kMethods[] = {"openPreview", "viewAll",     "pick",         "look",
                                       "cursor",      "parameters",  "shown",        "stop",
                                       "source",      "savePicture", "parameterSet", "closePreview"};
-  const int count = test_support::full_run() ? 100'000 : 2000;
+  const int count = test_support::full_run() ? 1'000'000 : 2000;
   std::optional<BrowserSocket> client;
   for (int i = 0; i < count; ++i) {
     if (client && i % 50 == 0 && client->ask("scadray/none", nullptr) == "closed") client.reset();

@@ -311,13 +311,15 @@ TEST(Preview, ShowsTheDesignAsItsLookSays) {
   PreviewClient client("difference() { cube(10); translate([5, 5, 5]) sphere(4); }",
                        {{"camera", kTop}});
   std::vector<frontend::Bytes> pictures{client.final_frame().image};
-  const Json looks[] = {{{"section", {{"axis", 2}, {"position", 5}, {"flipped", false}}}},
-                        {{"section", {{"axis", 0}, {"position", 4}, {"flipped", true}}}},
-                        {{"section", nullptr}, {"colorscheme", "Metallic"}},
-                        {{"colorscheme", "Cornfield"}, {"axes", true}},
-                        {{"axes", false}, {"edges", true}},
-                        {{"edges", false}, {"shading", "studio"}},
-                        {{"shading", "flat"}, {"width", 100}}};
+  const Json looks[] = {
+      {{"section", {{"normal", {0, 0, 1}}, {"position", 5}, {"flipped", false}}}},
+      {{"section", {{"normal", {1, 0, 0}}, {"position", 4}, {"flipped", true}}}},
+      {{"section", {{"normal", {0.6, 0, 0.8}}, {"position", 7}, {"flipped", false}}}},
+      {{"section", nullptr}, {"colorscheme", "Metallic"}},
+      {{"colorscheme", "Cornfield"}, {"axes", true}},
+      {{"axes", false}, {"edges", true}},
+      {{"edges", false}, {"shading", "studio"}},
+      {{"shading", "flat"}, {"width", 100}}};
   for (const Json& look : looks) {
     client.look(look);
     const Client::Frame frame = client.final_frame();
@@ -360,6 +362,7 @@ TEST(Preview, FindsWhatIsSeenAtAPlace) {
   const Json post = client.request("pick", {{"camera", kTop}, {"x", 80}, {"y", 60}});
   EXPECT_NEAR(post["position"][2], 5, 1e-9);
   EXPECT_EQ(post["normal"], Json({0.0, 0.0, 1.0}));
+  EXPECT_EQ(post["flat"], true);
   EXPECT_THAT(post["leaf"].get<std::string>(), HasSubstr("cylinder"));
   ASSERT_EQ(post["places"].size(), 2u);
   EXPECT_EQ(Client::place(post["places"][0]["range"]), "1:23-1:46");
@@ -396,6 +399,7 @@ TEST(Preview, SnapsToFeatures) {
   EXPECT_NEAR(std::max(ends[0], ends[1]), 10, 1e-6);
   const Json center = pick(-10, 5);
   EXPECT_EQ(center["feature"]["kind"], "center");
+  EXPECT_EQ(center["flat"], false);
   EXPECT_NEAR(center["feature"]["points"][0][0], -10, 1e-6);
   EXPECT_NEAR(center["radius"], 4, 1e-9);
 }
@@ -605,7 +609,7 @@ TEST(Preview, AClientThatAcknowledgesNothingGetsOneFrame) {
   PreviewClient client("cube(5);", {{"camera", kTop}});
   client.client.run_until([&] { return !client.client.frames.empty(); });
   for (int i = 0; i < 20; ++i) {
-    client.look({{"section", {{"axis", 2}, {"position", 0.2 * i}, {"flipped", true}}}});
+    client.look({{"section", {{"normal", {0, 0, 1}}, {"position", 0.2 * i}, {"flipped", true}}}});
     client.request("pick", {{"camera", kTop}, {"x", 1}, {"y", 1}});  // behind the picture
   }
   EXPECT_EQ(client.client.frames.size(), 1u);
@@ -676,8 +680,8 @@ TEST(Preview, WrongParametersAreErrors) {
                         {{"height", "9"}},
                         {{"moving", 1}},
                         {{"section", 1}},
-                        {{"section", {{"axis", 3}, {"position", 1}, {"flipped", true}}}},
-                        {{"section", {{"axis", 0.5}, {"position", 1}, {"flipped", true}}}},
+                        {{"section", {{"normal", {0, 0, 0}}, {"position", 1}, {"flipped", true}}}},
+                        {{"section", {{"normal", {0, 1}}, {"position", 1}, {"flipped", true}}}},
                         {{"shading", "dark"}},
                         {{"colorscheme", "none"}},
                         {{"axes", 1}},

@@ -18,7 +18,7 @@ export class AnimationStrip {
       this.preview.move({ time: this.slider.valueAsNumber });
     });
     const close = iconButton('close', 'No animation (A)', () => this.toggle());
-    this.element.append(this.button, make('span', {}, '$t'), this.slider, this.time, close);
+    this.element.append(make('div', {}, this.button, make('span', {}, '$t'), this.slider, this.time, close));
     preview.onLook.listen(({ time }) => {
       this.slider.value = String(time ?? 0);
       this.time.value = digits(time ?? 0);

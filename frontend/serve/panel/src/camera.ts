@@ -17,7 +17,7 @@ export interface View {
   halfHeight: number;
 }
 
-const turn_degPerPixel = 0.7;
+export const turn_degPerPixel = 0.7;
 const pan_distances = 3 * 0.7; // by a drag across the picture
 const zoomOfNotch = 0.9;
 const leastDistance = 1e-90;
@@ -26,6 +26,11 @@ const largestDistance = 1e90;
 export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const subtract = (a: Vec3, b: Vec3): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 export const length = (v: Vec3): number => Math.hypot(...v);
+export const cross = (a: Vec3, b: Vec3): Vec3 => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 /** Returns a + factor · b. */
 export const plus = (a: Vec3, factor: number, b: Vec3): Vec3 => [
   a[0] + factor * b[0],
@@ -33,8 +38,8 @@ export const plus = (a: Vec3, factor: number, b: Vec3): Vec3 => [
   a[2] + factor * b[2],
 ];
 
-const radians = (angle_deg: number): number => (angle_deg * Math.PI) / 180;
-const clamp = (x: number, low: number, high: number): number => Math.min(Math.max(x, low), high);
+export const radians = (angle_deg: number): number => (angle_deg * Math.PI) / 180;
+export const clamp = (x: number, low: number, high: number): number => Math.min(Math.max(x, low), high);
 
 /** Returns the angle in [0, 360), as OpenSCAD shows it. */
 function fullTurn(angle_deg: number): number {

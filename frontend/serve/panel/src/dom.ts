@@ -38,6 +38,8 @@ const icons = {
   source: 'M9 7l-5 5 5 5M15 7l5 5-5 5',
   more: 'M5 12h.01M12 12h.01M19 12h.01',
   close: 'M6 6l12 12M18 6 6 18',
+  face: 'M3 18 8 12h13l-5 6zM12 12V3M12 3 9.5 6M12 3l2.5 3',
+  points: 'M5 18h.01M20 15h.01M11 5h.01M7 16l3-8M13 7l5.5 6.5M7.5 17.5l10-2',
   flip: 'M7 4v16M7 4 4 7M7 4l3 3M17 20V4M17 20l-3-3M17 20l3-3',
   reset: 'M5 5v5h5M5.5 10a7 7 0 1 1-.5 4',
 } as const;

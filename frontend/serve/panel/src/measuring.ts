@@ -44,6 +44,8 @@ export class Measuring {
   readonly element = make('section', { class: 'card', 'aria-label': 'Measured', 'aria-live': 'polite', hidden: true });
   readonly hovered = make('div', { class: 'tooltip', role: 'status', hidden: true });
   private points: Pick[] = [];
+  /** Of the last clicks, at most three. */
+  lastPlaces: Vec3[] = [];
   private hoverNumber = 0;
 
   constructor(
@@ -56,16 +58,26 @@ export class Measuring {
     return this.points.length === 0;
   }
 
+  /** The normal of the flat face that was measured last. */
+  get face(): Vec3 | null {
+    const last = this.points.at(-1);
+    return last?.flat ? last.normal : null;
+  }
+
   /** Measures what is seen at a place, in pixels of the device. Next to nothing, it forgets the points. */
   async measure(x: number, y: number, snaps: boolean): Promise<void> {
     const pick = await this.preview.pick(x, y, snaps ? snapReach_px * this.picture.scale : 0);
     if (this.points.length === 2 || !pick) this.points = [];
-    if (pick) this.points.push(pick);
+    if (pick) {
+      this.points.push(pick);
+      this.lastPlaces = [...this.lastPlaces.slice(-2), pick.position];
+    }
     this.show();
   }
 
   forget(): void {
     this.points = [];
+    this.lastPlaces = [];
     this.show();
   }
 

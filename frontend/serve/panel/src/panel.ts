@@ -19,6 +19,7 @@ import { Preview } from './preview';
 import type { Camera, Place } from './protocol';
 import { SaveSheet } from './saving';
 import { SectionStrip } from './section';
+import { SectionPlane, axes } from './section_plane';
 import { SourceSheet } from './source';
 import { Status } from './status';
 import { followTheme, schemeOfTheme } from './theme';
@@ -51,7 +52,8 @@ const reveal = host.reveal ?? ((place: Place) => void source.reveal(place));
 const status = new Status(preview);
 const messages = new MessagesSheet(preview, reveal);
 const parameters = new ParametersSheet(preview);
-const section = new SectionStrip(preview);
+const section = new SectionPlane(preview);
+const sectionStrip = new SectionStrip(preview, section, { layAlongFace, layThroughPoints });
 const animation = new AnimationStrip(preview);
 const measuring = new Measuring(preview, picture, reveal);
 const saving = { picture: new SaveSheet('picture', preview, drawer, status), model: new SaveSheet('model', preview, drawer, status) };
@@ -76,6 +78,17 @@ function viewAll(): void {
   const { scale } = picture;
   const inPixels = { left: insets.left * scale, top: insets.top * scale, right: insets.right * scale, bottom: insets.bottom * scale };
   preview.viewAll(inPixels).catch((error: Error) => status.say(error.message));
+}
+
+function layAlongFace(): void {
+  if (measuring.face) section.layAcross(measuring.face);
+  else status.say('Click on a flat face first: the section plane is laid along it.');
+}
+
+function layThroughPoints(): void {
+  const [a, b, c] = measuring.lastPlaces;
+  if (!a || !b || !c) status.say('Click on three points first: the section plane is laid through them.');
+  else if (!section.layThrough([a, b, c])) status.say('The three points lie on a line: they give no section plane.');
 }
 
 /** Ends the nearest of what can be ended. */
@@ -129,12 +142,15 @@ const table: Command[] = [
     run: () => preview.change({ shading: preview.wanted.shading === 'studio' ? 'flat' : 'studio' }),
     isOn: () => preview.wanted.shading === 'studio',
   },
-  { name: 'section', label: 'Section plane', keys: ['c'], run: () => section.toggle(), isOn: () => section.section !== null },
-  ...(['x', 'y', 'z'] as const).map((axis, i) => ({
-    name: axis,
-    label: `Section across ${axis}`,
-    keys: [axis],
-    run: () => section.setAxis(i as 0 | 1 | 2),
+  { name: 'section', label: 'Section plane', keys: ['c'], run: () => section.toggle(), isOn: () => section.now !== null },
+  ...Object.entries(axes).map(([name, axis]) => ({ name, label: `Section across ${name}`, keys: [name], run: () => section.layAcross(axis) })),
+  { name: 'section face', label: 'Section along the measured face', keys: ['Shift+f'], run: layAlongFace },
+  { name: 'section points', label: 'Section through the last three points', keys: ['Shift+c'], run: layThroughPoints },
+  ...arrows.map(([name, right, up]) => ({
+    name: `section ${name}`,
+    label: 'Turn the section plane',
+    keys: [`Ctrl+Arrow${name}`],
+    run: () => section.turn(up * keyTurn_deg, right * keyTurn_deg),
   })),
   { name: 'flip', label: 'Other side of the section', keys: ['f'], run: () => section.flip() },
   { name: 'section up', label: 'Move the section plane', keys: ['PageUp'], run: () => section.move(keySection) },
@@ -164,7 +180,7 @@ const gestures: [string, string][] = [
   ['Click, tap', 'Measure a point and find its place; with alt not the corner or edge next to it'],
   ['Double click, double tap', 'Centre on the point'],
   ['Right click', 'Copy what is measured'],
-  ['Ctrl + left drag', 'Drag the section plane'],
+  ['Ctrl + left drag', 'Drag the section plane; with shift turn it'],
 ];
 const help: Sheet = {
   name: 'help',
@@ -201,7 +217,7 @@ drawer.onChange.listen((shown) => {
   }
 });
 preview.onLook.listen(() => {
-  tools.section.setAttribute('aria-pressed', String(section.section !== null));
+  tools.section.setAttribute('aria-pressed', String(section.now !== null));
   host.remember(preview.memory);
 });
 preview.onDesign.listen((design) => {
@@ -214,7 +230,7 @@ preview.onDesign.listen((design) => {
 tools.animation.hidden = true;
 tools.parameters.hidden = true;
 
-new PointerInput(picture, preview, {
+new PointerInput(picture, preview, section, {
   measure: (x, y, snaps) => void measuring.measure(x, y, snaps),
   center: (x, y) => {
     measuring.forget();
@@ -232,7 +248,7 @@ document.body.append(
   make('div', { class: 'notes' }, messages.banner, measuring.element),
   toolbar,
   drawer.element,
-  make('div', { class: 'strips' }, section.element, animation.element, status.element),
+  make('div', { class: 'strips' }, sectionStrip.element, animation.element, status.element),
   measuring.hovered,
 );
 connection.start();

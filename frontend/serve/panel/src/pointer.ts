@@ -1,8 +1,8 @@
 // What mouse, pen and touch do to the picture: they move the camera and the section plane, measure, and name leaves.
-import { Pan, moveAlong, pan, project, turn, zoom, zoomBy } from './camera';
+import { Pan, moveAlong, pan, turn, turn_degPerPixel, zoom, zoomBy } from './camera';
 import type { Picture } from './picture';
 import type { Preview } from './preview';
-import type { Section, Vec3 } from './protocol';
+import type { SectionPlane } from './section_plane';
 
 const clickReach_px = 4;
 const doubleClick_ms = 400;
@@ -37,6 +37,7 @@ export class PointerInput {
   constructor(
     private readonly picture: Picture,
     private readonly preview: Preview,
+    private readonly section: SectionPlane,
     private readonly actions: PointerActions,
   ) {
     const { element } = picture;
@@ -109,7 +110,7 @@ export class PointerInput {
     const { clientX: x, clientY: y } = event;
     if (!this.hasMoved && Math.hypot(x - held.startX, y - held.startY) < clickReach_px) return;
     this.hasMoved = true;
-    const before = { middle: this.middle(), spread: this.spread() };
+    const before = { x: held.x, y: held.y, middle: this.middle(), spread: this.spread() };
     const dx = (x - held.x) * this.picture.scale;
     const dy = (y - held.y) * this.picture.scale;
     held.x = x;
@@ -121,11 +122,12 @@ export class PointerInput {
       this.pinch(before);
     } else if (this.held.size > 2) {
       return;
-    } else if (held.button === 0 && (event.ctrlKey || event.metaKey) && this.preview.wanted.section) {
-      this.dragSection(this.preview.wanted.section, dx, dy);
+    } else if (held.button === 0 && (event.ctrlKey || event.metaKey) && this.section.now) {
+      if (event.shiftKey) this.section.turn(turn_degPerPixel * (y - before.y), turn_degPerPixel * (x - before.x));
+      else this.section.drag(dx, dy, size);
     } else if (held.button === 0) {
       // Angles are of the page's pixels, so that a dense display turns as far.
-      this.preview.move({ camera: turn(camera, dx / this.picture.scale, dy / this.picture.scale, event.shiftKey) });
+      this.preview.move({ camera: turn(camera, x - before.x, y - before.y, event.shiftKey) });
     } else if (held.button === 1 || event.shiftKey) {
       this.preview.move({ camera: moveAlong(camera, dy, size) });
     } else if (this.pan) {
@@ -143,29 +145,6 @@ export class PointerInput {
     const dy = (middle.y - before.middle.y) * scale;
     const zoomed = zoomBy(pan(camera, dx, dy, size), before.spread / this.spread(), at.x, at.y, size);
     this.preview.move({ camera: zoomed });
-  }
-
-  /** Moves the plane so that it follows the mouse along its axis, as that is seen. */
-  private dragSection(section: Section, dx: number, dy: number): void {
-    const bounds = this.preview.design?.bounds;
-    const camera = this.preview.camera;
-    if (!bounds || !camera) return;
-    const { axis } = section;
-    const onPlane = bounds.min.map((low, i) => (low + bounds.max[i]!) / 2) as Vec3;
-    onPlane[axis] = section.position;
-    const step = 0.01 * Math.hypot(...bounds.min.map((low, i) => bounds.max[i]! - low));
-    const further: Vec3 = [...onPlane];
-    further[axis] += step;
-    const from = project(camera, this.picture.size, onPlane);
-    const to = project(camera, this.picture.size, further);
-    if (!from || !to) return;
-    const length = Math.hypot(to.x - from.x, to.y - from.y);
-    // A plane that is seen along its axis does not move on the screen: a drag downwards moves it forward.
-    const least = 0.25;
-    const moved = length >= least ? (dx * (to.x - from.x) + dy * (to.y - from.y)) / length : dy;
-    const position = section.position + (step * moved) / Math.max(length, least);
-    const within = Math.min(Math.max(position, bounds.min[axis]), bounds.max[axis]);
-    this.preview.setSection({ ...section, position: within }, true);
   }
 
   private up(event: PointerEvent): void {

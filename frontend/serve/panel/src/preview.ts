@@ -33,7 +33,7 @@ export class Preview {
   private takesValues = false;
   private unsent: Look = {};
   private scheduled = false;
-  private restTimer = 0;
+  private restTimer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     private readonly connection: Connection,

@@ -11,7 +11,8 @@ export interface Camera {
 }
 
 export interface Section {
-  axis: 0 | 1 | 2;
+  /** Of unit length. */
+  normal: Vec3;
   position: number;
   flipped: boolean;
 }
@@ -101,6 +102,7 @@ export interface Frame {
 export interface Pick {
   position: Vec3;
   normal: Vec3;
+  flat: boolean;
   leaf: string;
   color: [number, number, number, number];
   feature?: { kind: 'vertex' | 'edge' | 'center'; points: Vec3[] };

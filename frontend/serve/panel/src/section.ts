@@ -1,78 +1,64 @@
-// The section plane: what lies beyond it is cut off.
+// The strip of the section plane: its normal, its position, and what lays it.
 import { digits, iconButton, make } from './dom';
-import { viewOf } from './camera';
 import type { Preview } from './preview';
-import type { Section } from './protocol';
+import type { Vec3 } from './protocol';
+import { type SectionPlane, axes, positionsIn } from './section_plane';
 
-const axes = ['x', 'y', 'z'] as const;
+const steps = 500; // of the slider
+
+export interface SectionActions {
+  layAlongFace(): void;
+  layThroughPoints(): void;
+}
 
 export class SectionStrip {
-  readonly element = make('div', { class: 'strip', role: 'group', 'aria-label': 'Section plane', hidden: true });
-  private readonly buttons = axes.map((name, i) =>
-    make('button', { type: 'button', title: `Across ${name} (${name.toUpperCase()})`, on: { click: () => this.setAxis(i as 0 | 1 | 2) } }, name),
+  readonly element = make('div', { class: 'strip section', role: 'group', 'aria-label': 'Section plane', hidden: true });
+  private readonly buttons = Object.entries(axes).map(([name, axis]) =>
+    make('button', { type: 'button', title: `Across ${name} (${name.toUpperCase()})`, on: { click: () => this.plane.layAcross(axis) } }, name),
   );
   private readonly slider = make('input', { type: 'range', 'aria-label': 'Position of the section plane' });
   private readonly position = make('output');
-  private last: Section['axis'] = 0;
+  private readonly normal = Object.keys(axes).map((name, i) =>
+    make('input', { type: 'number', step: '0.1', 'aria-label': `Normal, ${name}`, on: { input: () => this.enter(i) } }),
+  );
 
-  constructor(private readonly preview: Preview) {
-    this.slider.addEventListener('input', () => {
-      const section = this.section;
-      if (section) this.preview.setSection({ ...section, position: this.slider.valueAsNumber }, true);
-    });
-    const flip = iconButton('flip', 'Other side (F)', () => this.flip());
-    const close = iconButton('close', 'No section (C)', () => this.toggle());
-    this.element.append(...this.buttons, this.slider, this.position, flip, close);
+  constructor(
+    preview: Preview,
+    private readonly plane: SectionPlane,
+    actions: SectionActions,
+  ) {
+    this.slider.addEventListener('input', () => plane.moveTo(this.slider.valueAsNumber));
+    this.element.append(
+      make('div', {}, ...this.buttons, this.slider, this.position,
+        iconButton('flip', 'Other side (F)', () => plane.flip()),
+        iconButton('close', 'No section (C)', () => plane.toggle())),
+      make('div', {}, make('span', {}, 'normal'), ...this.normal,
+        iconButton('face', 'Along the measured face (Shift+F)', () => actions.layAlongFace()),
+        iconButton('points', 'Through the last three points (Shift+C)', () => actions.layThroughPoints())),
+    );
     preview.onLook.listen(() => this.show());
     preview.onDesign.listen(() => this.show());
   }
 
-  get section(): Section | null {
-    return this.preview.wanted.section ?? null;
-  }
-
-  toggle(): void {
-    if (this.section) this.preview.setSection(null);
-    else this.setAxis(this.last);
-  }
-
-  /** Cuts across the middle of the design; the side towards the eye is cut off. */
-  setAxis(axis: Section['axis']): void {
-    const bounds = this.preview.design?.bounds;
-    const camera = this.preview.camera;
-    if (!camera) return;
-    this.last = axis;
-    const position = bounds ? (bounds.min[axis] + bounds.max[axis]) / 2 : 0;
-    this.preview.setSection({ axis, position, flipped: viewOf(camera).forward[axis] > 0 });
-  }
-
-  flip(): void {
-    if (this.section) this.preview.setSection({ ...this.section, flipped: !this.section.flipped });
-  }
-
-  /** Moves the plane by a share of the design's size. */
-  move(share: number): void {
-    const { section } = this;
-    const bounds = this.preview.design?.bounds;
-    if (!section || !bounds) return;
-    const low = bounds.min[section.axis];
-    const high = bounds.max[section.axis];
-    const position = Math.min(Math.max(section.position + share * (high - low), low), high);
-    this.preview.setSection({ ...section, position }, true);
+  private enter(index: number): void {
+    const { now } = this.plane;
+    const entered = this.normal[index]!.valueAsNumber;
+    if (now && Number.isFinite(entered)) this.plane.direct(now.normal.map((x, i) => (i === index ? entered : x)) as Vec3);
   }
 
   private show(): void {
-    const { section } = this;
-    this.element.hidden = !section;
-    if (!section) return;
-    this.buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(i === section.axis)));
-    const bounds = this.preview.design?.bounds;
+    const { now, bounds } = this.plane;
+    this.element.hidden = !now;
+    if (!now) return;
+    this.buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(Math.abs(now.normal[i]!) === 1)));
     if (bounds) {
-      const low = bounds.min[section.axis];
-      const high = bounds.max[section.axis];
-      Object.assign(this.slider, { min: String(low), max: String(high), step: String((high - low) / 500 || 1) });
+      const [low, high] = positionsIn(bounds, now.normal);
+      Object.assign(this.slider, { min: String(low), max: String(high), step: String((high - low) / steps || 1) });
     }
-    this.slider.value = String(section.position);
-    this.position.value = digits(section.position);
+    this.slider.value = String(now.position);
+    this.position.value = digits(now.position);
+    this.normal.forEach((field, i) => {
+      if (field !== document.activeElement) field.value = now.normal[i]!.toFixed(3);
+    });
   }
 }

@@ -24,10 +24,11 @@ export class Status {
       this.show();
     });
     preview.onDesign.listen(() => this.say(''));
+    for (const begun of ['pointerdown', 'keydown']) addEventListener(begun, () => this.say(''), true);
     this.show();
   }
 
-  /** Tells the outcome of the last action. */
+  /** Tells the outcome of the last action, until the next one. */
   say(notice: string): void {
     this.notice.textContent = notice;
   }
