@@ -4,7 +4,6 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <cstring>
@@ -31,10 +30,6 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 
-/// What does not come in this time is not awaited.
-constexpr std::chrono::seconds kPatience{10};
-/// A client that does not answer for so long is gone.
-constexpr std::chrono::seconds kIdle{60};
 constexpr uint32_t kMostHeaderBytes = 8192;
 constexpr std::size_t kMostMessage = std::size_t{1} << 20;  // from a browser
 /// What waits for a client that reads slowly; its server then waits, too.
@@ -86,7 +81,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
     beast::error_code ignored;
     stream.socket().set_option(tcp::no_delay(true), ignored);
     socket_.auto_fragment(false);
-    socket_.set_option(websocket::stream_base::timeout{kPatience, kIdle, true});
+    socket_.set_option(websocket::stream_base::timeout{options_.patience, options_.idle, true});
     socket_.read_message_max(kMostMessage);
     thread_ = std::thread([self = shared_from_this()] { self->serve_client(); });
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
@@ -274,7 +269,7 @@ class HttpServer::Impl {
       parser_.emplace();
       parser_->header_limit(kMostHeaderBytes);
       parser_->body_limit(0);
-      stream_.expires_after(kPatience);
+      stream_.expires_after(server_.options_.patience);
       http::async_read(
           stream_, buffer_, *parser_,
           [self = shared_from_this()](beast::error_code error, std::size_t) { self->take(error); });
@@ -302,7 +297,7 @@ class HttpServer::Impl {
     void answer(Response response) {
       response_ = std::move(response);
       response_.prepare_payload();
-      stream_.expires_after(kPatience);
+      stream_.expires_after(server_.options_.patience);
       http::async_write(stream_, response_,
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
                           if (error || self->response_.need_eof()) return self->end();

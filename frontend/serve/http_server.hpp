@@ -2,6 +2,7 @@
 // is a client of a server of its own.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,6 +19,10 @@ struct HttpOptions {
   std::string bind = "127.0.0.1";  // a numeric address
   uint16_t port = 0;               // 0: any that is free
   std::string origin{};            // HttpOrigin's `seen`
+  /// A request that does not come in this time, or an answer that is not taken, is given up.
+  std::chrono::milliseconds patience = std::chrono::seconds(10);
+  /// So is a WebSocket's client that has sent nothing for so long, no pong either.
+  std::chrono::milliseconds idle = std::chrono::seconds(60);
 };
 
 /// Clients at a time; more are answered 503.

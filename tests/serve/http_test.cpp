@@ -23,13 +23,14 @@ using testing::StartsWith;
 
 class HttpTest : public testing::Test {
  protected:
-  HttpTest() {
+  explicit HttpTest(HttpOptions options = {}, std::size_t script_bytes = 2) {
     folder_.write("a.scad", "include <b.scad>\ncube(size);");
     folder_.write("b.scad", "size = 5;\n");
     folder_.write("secret.scad", "secret = 1;\n");
     panel_.write("index.html", "<html><head></head></html>");
-    panel_.write("panel.js", "1;");
-    server_.emplace(HttpOptions{.design = folder_ / "a.scad"}, PanelFiles(panel_.path()));
+    panel_.write("panel.js", std::string(script_bytes, ';'));
+    options.design = folder_ / "a.scad";
+    server_.emplace(std::move(options), PanelFiles(panel_.path()));
     const std::string address = server_->address();
     const std::size_t colon = address.rfind(':');
     std::from_chars(address.data() + colon + 1, address.data() + address.size(), port_);
@@ -208,6 +209,82 @@ TEST_F(HttpTest, WritesBesideTheDesignAlone) {
   EXPECT_EQ(client.ask("scadray/exportModel", {{"preview", 1}, {"path", "a.stl"}})["path"],
             std::filesystem::weakly_canonical(folder_ / "a.stl").string());
   EXPECT_TRUE(folder_.has("a.stl"));
+}
+
+int descriptors() {
+  const std::filesystem::directory_iterator all("/proc/self/fd");
+  return static_cast<int>(std::distance(begin(all), end(all)));
+}
+
+/// A server that is soon impatient.
+class ImpatientHttpTest : public HttpTest {
+ protected:
+  static constexpr std::size_t kScriptBytes = std::size_t{16} << 20;  // no buffer holds that
+
+  ImpatientHttpTest()
+      : HttpTest(
+            {.patience = std::chrono::milliseconds(200), .idle = std::chrono::milliseconds(400)},
+            kScriptBytes),
+        descriptors_(descriptors()) {}
+
+  /// The server closes all connections; those of the test's own side are still open.
+  void expect_closed(int own) const {
+    int open = 0;
+    for (int i = 0; i < 600; ++i) {
+      open = descriptors() - descriptors_;
+      if (open <= own) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_EQ(open, own);
+  }
+
+ private:
+  const int descriptors_;  // before any client
+};
+
+TEST_F(ImpatientHttpTest, ClosesWhatSaysNothing) {
+  Connection silent(port_), half(port_), kept(port_);
+  half.send("GET / HTTP/1.1\r\nHost: ");
+  kept.send(request_text("/?token=" + token_, {host_}));
+  EXPECT_THAT(kept.take_until("</html>"), StartsWith("HTTP/1.1 200"));
+  expect_closed(3);
+  EXPECT_EQ(silent.rest(), "");
+  expect_service();
+}
+
+TEST_F(ImpatientHttpTest, ClosesARequestThatComesByteByByte) {
+  Connection slow(port_);
+  const std::string text = request_text("/panel/" + std::string(8000, 'a'), {host_});
+  std::size_t sent = 0;
+  for (; sent < text.size() && slow.send(text.substr(sent, 1)); ++sent)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_LT(sent, text.size());
+  expect_closed(1);
+}
+
+TEST_F(ImpatientHttpTest, ClosesWhatDoesNotReadItsAnswer) {
+  Connection deaf(port_);
+  constexpr int kRoom = 65536;
+  setsockopt(deaf.descriptor(), SOL_SOCKET, SO_RCVBUF, &kRoom, sizeof kRoom);
+  deaf.send(request_text("/panel/panel.js", {host_}));
+  expect_closed(1);
+  EXPECT_LT(deaf.rest().size(), kScriptBytes);
+  expect_service();
+}
+
+TEST_F(ImpatientHttpTest, ClosesClientsThatAreGone) {
+  folder_.write("a.scad", "for (i = [0 : 999]) echo(\"" + std::string(3000, 'x') +
+                              "\", i);\ncube(5);");  // a design of 3 MB
+  BrowserSocket silent = socket(), deaf = socket();
+  ASSERT_TRUE(silent.is_open() && deaf.is_open());
+  EXPECT_EQ(open(deaf)["preview"], 1);
+  for (int i = 0; i < 9; ++i) {
+    deaf.send({{"id", i},
+               {"method", "scadray/parameterSet"},
+               {"params", {{"preview", 1}, {"action", "choose"}, {"name", ""}}}});
+  }
+  expect_closed(2);
+  expect_service();
 }
 
 TEST_F(HttpTest, ManyClientsAreRefused) {

@@ -1,5 +1,7 @@
 // The preview's protocol, with a server in this process.
+#include <fstream>
 #include <random>
+#include <thread>
 
 #include "client.hpp"
 #include "support/full_run.hpp"
@@ -641,6 +643,60 @@ TEST(Preview, GivesItsThreadsBackWhenItIsClosed) {
   }
   EXPECT_LE(threads(), before + 1);
   EXPECT_EQ(client.request("closePreview")["code"], -32602);
+}
+
+/// Returns how often the threads of this process have waited for something.
+long waits() {
+  long count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "status");
+    for (std::string line; std::getline(file, line);) {
+      constexpr std::string_view kName = "voluntary_ctxt_switches:";
+      if (line.starts_with(kName)) count += std::stol(line.substr(kName.size()));
+    }
+  }
+  return count;
+}
+
+TEST(Preview, DoesNothingAtRest) {
+  PreviewClient client;
+  client.folder.write("a.scad", "include <b.scad>\ncube(size);");
+  client.folder.write("b.scad", "size = 5;");
+  client.begin();
+  client.final_frame();
+  long before = 0, after = -1;
+  for (int i = 0; i < 60 && after - before != 1; ++i) {  // all threads come to rest
+    before = waits();
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // this one waits once
+    after = waits();
+  }
+  EXPECT_EQ(after - before, 1);
+}
+
+/// Returns the memory that this process has taken, in bytes.
+std::size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * 4096;
+}
+
+TEST(Preview, GivesItsMemoryBackWhenItIsClosed) {
+  const std::string many = "for (i = [0 : 199], j = [0 : 199]) translate([i, j, 0]) sphere(0.4);";
+  PreviewClient client("cube(5);");
+  client.final_frame();
+  client.request("closePreview");
+  client.change(many);
+  client.client.settle();
+  const std::size_t before = resident_bytes();
+  client.begin();
+  client.final_frame();
+  const std::size_t open = resident_bytes();
+  client.request("closePreview");
+  EXPECT_GT(open, before + (std::size_t{20} << 20));
+#ifndef SCADRAY_SANITIZED  // which keeps what is freed for a while
+  EXPECT_LT(resident_bytes(), before + (open - before) / 4);
+#endif
 }
 
 TEST(Preview, CloseEndsWhatWaits) {
