@@ -106,6 +106,38 @@ panelTest(
   { viewport: { width: 320, height: 560 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 },
 );
 
+panelTest('a pen turns, hovers, measures and centres', async (panel, page) => {
+  let shown = await panel.frame();
+  const session = await page.context().newCDPSession(page);
+  const seen = [await panel.pixels()];
+  const pen = (type: 'mousePressed' | 'mouseMoved' | 'mouseReleased', x: number, y: number, button: 'left' | 'right' | 'none' = 'left') =>
+    session.send('Input.dispatchMouseEvent', { type, x, y, button, clickCount: type === 'mouseMoved' ? 0 : 1, pointerType: 'pen' });
+  for (const button of ['left', 'right'] as const) {
+    await pen('mousePressed', 300, 225, button);
+    for (let i = 1; i <= 5; i++) await pen('mouseMoved', 300 + 8 * i, 225 + 2 * i, button);
+    await pen('mouseReleased', 340, 235, button);
+    shown = await panel.frame(shown);
+    seen.push(await panel.pixels());
+  }
+  assert.ok(await page.locator('.card').isHidden(), 'a drag is no tap');
+  await pen('mouseMoved', 320, 230, 'none');
+  await page.locator('.tooltip', { hasText: 'cube' }).waitFor();
+  // Two taps that are as unsteady as a hand.
+  await pen('mousePressed', 320, 230);
+  await pen('mouseMoved', 325, 234);
+  await pen('mouseReleased', 325, 234);
+  await page.locator('.card').waitFor();
+  await page.waitForTimeout(500);
+  for (const [x, y] of [[250, 260], [257, 252]] as const) {
+    await pen('mousePressed', x, y);
+    await pen('mouseReleased', x, y);
+  }
+  await panel.frame(shown);
+  seen.push(await panel.pixels());
+  assert.ok(await page.locator('.card').isHidden(), 'a double tap centres');
+  assert.equal(new Set(seen).size, seen.length);
+});
+
 panelTest('keys alone do all that the mouse does', async (panel, page) => {
   let shown = await panel.frame();
   await page.locator('.picture').focus();

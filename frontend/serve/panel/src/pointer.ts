@@ -4,7 +4,10 @@ import type { Picture } from './picture';
 import type { Preview } from './preview';
 import type { SectionPlane } from './section_plane';
 
-const clickReach_px = 4;
+/** A click moves no further than this; fingers and pens are less steady than a mouse. */
+const clickReach_px = { mouse: 4, other: 10 };
+/** The second click of two is no further from the first. */
+const doubleClickReach_px = { mouse: 4, other: 20 };
 const doubleClick_ms = 400;
 const hover_ms = 400;
 const notch_px = 100; // that a notch of the wheel scrolls
@@ -24,7 +27,7 @@ interface Held {
   startX: number;
   startY: number;
   button: number;
-  isTouch: boolean;
+  pointer: 'mouse' | 'other';
 }
 
 export class PointerInput {
@@ -66,7 +69,7 @@ export class PointerInput {
       startX: x,
       startY: y,
       button: event.button,
-      isTouch: event.pointerType === 'touch',
+      pointer: event.pointerType === 'mouse' ? 'mouse' : 'other',
     });
     this.endHover();
     if (this.held.size > 1) this.hasMoved = true; // no finger of several clicks
@@ -108,7 +111,7 @@ export class PointerInput {
       return;
     }
     const { clientX: x, clientY: y } = event;
-    if (!this.hasMoved && Math.hypot(x - held.startX, y - held.startY) < clickReach_px) return;
+    if (!this.hasMoved && Math.hypot(x - held.startX, y - held.startY) < clickReach_px[held.pointer]) return;
     this.hasMoved = true;
     const before = { x: held.x, y: held.y, middle: this.middle(), spread: this.spread() };
     const dx = (x - held.x) * this.picture.scale;
@@ -156,8 +159,8 @@ export class PointerInput {
       this.actions.copy();
     } else if (held.button === 0) {
       const { time, x, y } = this.lastClick;
-      const reach = held.isTouch ? 20 : clickReach_px;
-      const isSecond = event.timeStamp - time < doubleClick_ms && Math.hypot(at.x - x, at.y - y) < reach * this.picture.scale;
+      const reach = doubleClickReach_px[held.pointer] * this.picture.scale;
+      const isSecond = event.timeStamp - time < doubleClick_ms && Math.hypot(at.x - x, at.y - y) < reach;
       this.lastClick = { time: isSecond ? -Infinity : event.timeStamp, ...at };
       if (isSecond) this.actions.center(at.x, at.y);
       else this.actions.measure(at.x, at.y, !event.altKey);
