@@ -36,7 +36,7 @@ function panelTest(
     const panel = await Panel.open(browser, { text }, options);
     try {
       await run(panel, panel.page);
-      await panel.screenshot(name.replace(/[^a-z]+/gi, '_'));
+      await panel.screenshot(name.replace(/[^a-z0-9]+/gi, '_'));
       assert.deepEqual(panel.errors, []);
     } finally {
       await panel.close();
@@ -189,6 +189,36 @@ panelTest('the cursor lights what its line makes', async (panel, page) => {
   await panel.frame(shown);
   assert.equal(await panel.pixels(), plain);
 });
+
+/** Returns whether elements of the page cover each other. */
+async function overlap(page: Page, a: string, b: string): Promise<boolean> {
+  const [p, q] = await Promise.all([a, b].map((selector) => page.locator(selector).boundingBox()));
+  if (!p || !q) return false;
+  return p.x < q.x + q.width && q.x < p.x + p.width && p.y < q.y + q.height && q.y < p.y + p.height;
+}
+
+for (const width of [320, 600, 900]) {
+  panelTest(
+    `a sheet and a strip leave each other room at ${width} pixels`,
+    async (panel, page) => {
+      await panel.frame();
+      await page.keyboard.press('c');
+      await page.locator('.strip.section').waitFor();
+      assert.ok(!(await overlap(page, '.status', '.strip.section')));
+      for (const field of await page.locator('.strip.section input[type=number]').all()) {
+        assert.ok(await field.evaluate(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth), 'a normal is shown whole');
+      }
+      await page.keyboard.press('Shift+P');
+      await page.locator('.drawer').waitFor();
+      assert.ok(!(await overlap(page, '.drawer', '.strip.section')));
+      assert.ok(!(await overlap(page, '.drawer', '.status')));
+      assert.ok(!(await overlap(page, '.status', '.strip.section')));
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+      await panel.screenshot(`room_${width}`);
+    },
+    { viewport: { width, height: 480 }, colorScheme: width === 320 ? 'dark' : 'light' },
+  );
+}
 
 panelTest('parameters move the design', async (panel, page) => {
   const shown = await panel.frame();

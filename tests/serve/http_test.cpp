@@ -219,7 +219,7 @@ int descriptors() {
 /// A server that is soon impatient.
 class ImpatientHttpTest : public HttpTest {
  protected:
-  static constexpr std::size_t kScriptBytes = std::size_t{16} << 20;  // no buffer holds that
+  static constexpr std::size_t kScriptBytes = std::size_t{30} << 20;  // no buffer holds that
 
   ImpatientHttpTest()
       : HttpTest(
