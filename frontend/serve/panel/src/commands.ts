@@ -47,9 +47,11 @@ export class Commands {
     return command;
   }
 
-  /** Lists keys, for the help. */
+  /** Lists keys, for the help: those of equal labels once. */
   list(): HTMLElement {
-    const rows = this.commands.map(({ label, keys }) =>
+    const keysOf = new Map<string, string[]>();
+    for (const { label, keys } of this.commands) keysOf.set(label, [...(keysOf.get(label) ?? []), ...keys]);
+    const rows = [...keysOf].map(([label, keys]) =>
       make('tr', {}, make('td', {}, ...keys.map((key) => make('kbd', {}, keyText(key)))), make('td', {}, label)),
     );
     return make('table', { class: 'keys' }, make('tbody', {}, ...rows));

@@ -52,7 +52,9 @@ export class Measuring {
     private readonly preview: Preview,
     private readonly picture: Picture,
     private readonly reveal: (place: Place) => void,
-  ) {}
+  ) {
+    preview.onDesign.listen(({ ok }) => ok && this.forget());
+  }
 
   get isEmpty(): boolean {
     return this.points.length === 0;
