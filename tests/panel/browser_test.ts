@@ -211,8 +211,12 @@ for (const width of [320, 600, 900]) {
       assert.ok(!(await overlap(page, '.status', '.strip.section')));
       const fit = () => page.locator('.strip.section input[type=number]').evaluateAll((fields) => fields.every((field) => field.scrollWidth <= field.clientWidth));
       assert.ok(await fit(), 'the normal is shown whole');
+      await page.locator('.picture').focus();
+      await page.keyboard.press('Enter');
+      await page.locator('.card').waitFor();
       await page.keyboard.press('Shift+P');
       await page.locator('.drawer').waitFor();
+      assert.ok(!(await overlap(page, '.drawer', '.card')));
       assert.ok(!(await overlap(page, '.drawer', '.strip.section')));
       assert.ok(await fit(), 'the normal is shown whole beside a sheet');
       assert.ok(!(await overlap(page, '.drawer', '.status')));
