@@ -77,15 +77,12 @@ Said said_of(const frontend::Warning& warning, const Evaluated& evaluated,
   return said;
 }
 
-/// Returns the number of an evaluation's file of that key.
+/// Returns the number of a design's file of that key.
 std::optional<language::FileId> file_of(const language::SourceFiles& files,
                                         const std::string& key) {
-  const std::string name = std::filesystem::path(key).filename();
-  for (const language::FileId file : files.order()) {
-    const std::string& path = files[file].path;
-    if (path.ends_with(name) && TextOverlay::key_of(path) == key) return file;
-  }
-  return std::nullopt;
+  const auto found = std::ranges::find_if(
+      files.order(), [&](language::FileId file) { return has_key(files[file].path, key); });
+  return found == files.order().end() ? std::nullopt : std::optional(*found);
 }
 
 }  // namespace
@@ -252,20 +249,21 @@ std::optional<std::string> Preview::source(const std::string& key) const {
     const DocumentPointer document = workspace_.find(key);
     return document ? std::optional(document->text->bytes()) : std::nullopt;
   }
-  if (!reading_ || !reading_->evaluation) return std::nullopt;
-  const auto file = file_of(*reading_->evaluation->files, key);
-  return file ? std::optional(own_text((*reading_->evaluation->files)[*file].text)) : std::nullopt;
+  if (!reading_ || !reading_->tree.files) return std::nullopt;
+  const language::SourceFiles& files = *reading_->tree.files;
+  const auto file = file_of(files, key);
+  return file ? std::optional(own_text(files[*file].text)) : std::nullopt;
 }
 
 void Preview::light_cursor() {
   recolored_.reset();
   if (!cursor_ || !reading_ || !reading_->design) return;
-  const language::SourceFiles& files = *reading_->evaluation->files;
+  const language::SourceFiles& files = *reading_->tree.files;
   const auto file =
       cursor_->key == key_ ? std::optional(files.order().front()) : file_of(files, cursor_->key);
   if (!file) return;
   const Text text(own_text(files[*file].text));
-  recolored_ = lit_scene(*reading_->design, *reading_->evaluation, *file,
+  recolored_ = lit_scene(*reading_->design, reading_->tree, *file,
                          text.offset_of(cursor_->position, cursor_->encoding), look_.scheme);
 }
 
@@ -411,11 +409,13 @@ void Preview::read_designs(const std::stop_token& stop) {
   }
 }
 
-void Preview::import_into(DesignReading& reading, const std::stop_token& stop) const {
+void Preview::import_into(DesignReading& reading,
+                          const std::shared_ptr<const language::Evaluation>& evaluation,
+                          const std::stop_token& stop) const {
   frontend::DesignText text;
   text.name = frontend::input_name(path_);
   text.is_exported = true;
-  text.evaluation = reading.evaluation;
+  text.evaluation = evaluation;
   reading.tree = frontend::tree_of(text, stop);
   reading.design = std::make_shared<const frontend::ImportedDesign>(
       frontend::import_design(reading.tree, frontend::beside(path_, text, import_), stop));
@@ -453,10 +453,9 @@ std::shared_ptr<const DesignReading> Preview::read(const Job& job, const DesignR
   }
   if (reading->is_ok) {
     reading_activity_.update("importing");
-    reading->evaluation = evaluated->evaluation;
-    reading->lacks_files = reading->evaluation->has_unparsed_files;
+    reading->lacks_files = evaluated->evaluation->has_unparsed_files;
     try {
-      import_into(*reading, stop);
+      import_into(*reading, evaluated->evaluation, stop);
       for (const frontend::Warning& warning : reading->design->warnings)
         reading->said.push_back(said_of(warning, *evaluated, path_));
     } catch (const std::bad_alloc&) {
@@ -471,7 +470,6 @@ std::shared_ptr<const DesignReading> Preview::read(const Job& job, const DesignR
     const DesignReading none;
     const DesignReading& good = before ? *before : none;
     reading->design = good.design;
-    reading->evaluation = good.evaluation;
     reading->tree = good.tree;
     reading->lacks_files = good.lacks_files;
     reading->bounds = good.bounds;

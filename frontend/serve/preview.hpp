@@ -51,7 +51,6 @@ struct DesignReading {
   int64_t version = 0;  // of the document
   bool is_ok = false;   // the design below is of this version; else it is the last good one
   std::shared_ptr<const frontend::ImportedDesign> design;  // null: there was none yet
-  std::shared_ptr<const language::Evaluation> evaluation;  // that it was made from
   frontend::DesignTree tree;                               // of it
   bool lacks_files = false;                                // a used file of it has a syntax error
   csgcore::Box bounds;                                     // of what is left of it
@@ -154,7 +153,9 @@ class Preview {
   void read_designs(const std::stop_token& stop);
   std::shared_ptr<const DesignReading> read(const Job& job, const DesignReading* before,
                                             const std::stop_token& stop);
-  void import_into(DesignReading& reading, const std::stop_token& stop) const;
+  void import_into(DesignReading& reading,
+                   const std::shared_ptr<const language::Evaluation>& evaluation,
+                   const std::stop_token& stop) const;
   void send_frames(const std::stop_token& stop);
   void save(const window::Painting& painting);
   PreviewFrame frame_of(const window::Painting& painting) const;

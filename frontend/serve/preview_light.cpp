@@ -55,12 +55,12 @@ Color shown_color(const csgcore::Primitive& primitive, const frontend::ColorSche
 }
 
 std::shared_ptr<const csgcore::Scene> lit_scene(const frontend::ImportedDesign& design,
-                                                const language::Evaluation& evaluation,
+                                                const frontend::DesignTree& tree,
                                                 language::FileId file, std::size_t offset,
                                                 const frontend::ColorScheme& scheme) {
-  const auto statement = Statements(own_text((*evaluation.files)[file].text)).around(offset);
+  const auto statement = Statements(own_text((*tree.files)[file].text)).around(offset);
   if (!statement) return nullptr;
-  const std::vector<bool> lit = nodes_of(*evaluation.tree, file, *statement);
+  const std::vector<bool> lit = nodes_of(*tree.nodes, file, *statement);
   const auto is_lit = [&](const csgcore::Primitive& primitive) {
     return lit[design.places.at(primitive.id)];
   };

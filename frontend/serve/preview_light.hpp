@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "frontend/design_tree.hpp"
 #include "frontend/imported_design.hpp"
 #include "frontend/render_settings.hpp"
-#include "language/evaluation.hpp"
 #include "text.hpp"
 
 namespace serve {
@@ -15,7 +15,7 @@ namespace serve {
 /// makes: the leaves whose calls stand in it, or that are made of such. Null: it makes nothing that
 /// is seen, or everything.
 std::shared_ptr<const csgcore::Scene> lit_scene(const frontend::ImportedDesign& design,
-                                                const language::Evaluation& evaluation,
+                                                const frontend::DesignTree& tree,
                                                 language::FileId file, std::size_t offset,
                                                 const frontend::ColorScheme& scheme);
 

@@ -25,11 +25,6 @@ constexpr double kMostNumber = 9007199254740991;  // of JSON's
 
 RequestError failed(const std::string& what) { return {ErrorCode::kRequestFailed, what}; }
 
-std::string key_of(const std::string& uri) {
-  const std::string path = path_of_uri(uri);
-  return path == "-" ? uri : TextOverlay::key_of(path);
-}
-
 uint64_t whole_number(const Json& params, const char* name) {
   return static_cast<uint64_t>(number_of(params, name, 0, kMostNumber));
 }
@@ -97,7 +92,7 @@ void Previews::notice_document(const std::string& key) {
 // Requests.
 
 void Previews::open(const Json& params, const Reply& reply) {
-  const std::string uri = text_of(member_of(params, "textDocument"), "uri"), key = key_of(uri);
+  const std::string uri = text_of(member_of(params, "textDocument"), "uri"), key = key_of_uri(uri);
   Look look;
   change_look(member_of(params, "look"), look);
   if (!only_design_.empty() && key != only_design_)
@@ -209,7 +204,7 @@ void Previews::export_model(uint64_t, Open& open, const Json& params, const Repl
 }
 
 void Previews::tell_source(uint64_t, Open& open, const Json& params, const Reply& reply) {
-  const auto text = open.preview->source(key_of(text_of(params, "uri")));
+  const auto text = open.preview->source(key_of_uri(text_of(params, "uri")));
   reply.give(text ? Json{{"text", *text}} : Json());
 }
 
@@ -247,7 +242,7 @@ void Previews::cursor(Open& open, const Json& params) {
   const Json& position = find_member(params, {"position"});
   if (position.is_null()) return open.preview->set_cursor(std::nullopt);
   const std::string uri = params.contains("uri") ? text_of(params, "uri") : open.uri;
-  open.preview->set_cursor(Cursor{key_of(uri), position_of(position), client_.encoding()});
+  open.preview->set_cursor(Cursor{key_of_uri(uri), position_of(position), client_.encoding()});
 }
 
 void Previews::parameters(Open& open, const Json& params) {

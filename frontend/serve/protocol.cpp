@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "language/text_overlay.hpp"
+
 namespace serve {
 namespace {
 
@@ -50,6 +52,11 @@ std::string uri_of_path(std::string_view path) {
       uri += {'%', kDigits[byte / 16], kDigits[byte % 16]};
   }
   return uri;
+}
+
+std::string key_of_uri(const std::string& uri) {
+  const std::string path = path_of_uri(uri);
+  return path == "-" ? uri : language::TextOverlay::key_of(path);
 }
 
 Json json_of(Range range) {

@@ -17,6 +17,8 @@ RequestError invalid(const std::string& what);
 /// Returns the path of a `file:` URI; "-" of any other.
 std::string path_of_uri(std::string_view uri);
 std::string uri_of_path(std::string_view path);
+/// Returns the key of a document: TextOverlay's of its file, or the URI itself.
+std::string key_of_uri(const std::string& uri);
 
 Json json_of(Range range);
 /// Both throw RequestError if the JSON is no such thing.

@@ -29,6 +29,8 @@ Json capabilities(PositionEncoding encoding) {
 
 const Json& document_of(const Json& params) { return member_of(params, "textDocument"); }
 
+std::string key_of(const Json& params) { return key_of_uri(text_of(document_of(params), "uri")); }
+
 }  // namespace
 
 Server::Server(language::LanguageVersion version, Send send, SendFrame send_frame, Post post,
@@ -193,14 +195,9 @@ Json Server::shut_down(const Json&) {
 
 // Documents.
 
-std::string Server::key_of(const Json& params) const {
-  const std::string uri = text_of(document_of(params), "uri"), path = path_of_uri(uri);
-  return path == "-" ? uri : TextOverlay::key_of(path);
-}
-
 void Server::open(const Json& params) {
   const Json& document = document_of(params);
-  const std::string uri = text_of(document, "uri"), key = key_of(params);
+  const std::string uri = text_of(document, "uri"), key = key_of_uri(uri);
   auto text = std::make_shared<const Text>(text_of(document, "text"));
   const uint32_t version = number_of(member_of(document, "version"));
   uris_[key] = uri;
@@ -211,8 +208,7 @@ void Server::open(const Json& params) {
 void Server::change(const Json& params) {
   const std::string key = key_of(params);
   const DocumentPointer document = workspace_.find(key);
-  if (!document || !document->is_open)
-    throw RequestError{ErrorCode::kInvalidParams, "the document is not open"};
+  if (!document || !document->is_open) throw invalid("the document is not open");
   const uint32_t version = number_of(member_of(document_of(params), "version"));
   workspace_.change(key, version,
                     changed_text(document->text, member_of(params, "contentChanges"), encoding_));
@@ -237,7 +233,7 @@ void Server::close(const Json& params) {
 void Server::notice_files(const Json& params) {
   sources_.invalidate(true);
   for (const Json& change : member_of(params, "changes"))
-    workspace_.notice_change(TextOverlay::key_of(path_of_uri(text_of(change, "uri"))));
+    workspace_.notice_change(key_of_uri(text_of(change, "uri")));
 }
 
 void Server::change_folders(const Json& params) {
@@ -367,7 +363,7 @@ void Server::publish() {
 
 Query Server::query_of_document(const Json& params) {
   const SourcePointer source = sources_.of_document(key_of(params));
-  if (!source) throw RequestError{ErrorCode::kInvalidParams, "the document is not open"};
+  if (!source) throw invalid("the document is not open");
   return {sources_, source, 0, version_};
 }
 
@@ -478,7 +474,7 @@ Json Server::spell_color(const Json& params) {
   std::size_t channel = 0;
   for (const char* name : {"red", "green", "blue", "alpha"}) {
     const Json& value = member_of(color, name);
-    if (!value.is_number()) throw RequestError{ErrorCode::kInvalidParams, "a channel is no number"};
+    if (!value.is_number()) throw invalid("a channel is no number");
     channels[channel++] = value;
   }
   const Text& text = *query.source->outline.text;

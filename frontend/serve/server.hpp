@@ -74,7 +74,6 @@ class Server {
   Json prepare_rename(const Json& params);
   Json rename(const Json& params);
 
-  std::string key_of(const Json& params) const;
   Query query_of(const Json& params);
   Query query_of_document(const Json& params);
   Range range(const Query& query, Span span) const {

@@ -109,11 +109,14 @@ std::string own_text(std::string_view text) {
   return std::string(text);
 }
 
+bool has_key(const std::string& path, const std::string& key) {
+  // To find a file's key takes longer than to compare names.
+  return path.ends_with(std::filesystem::path(key).filename().native()) &&
+         TextOverlay::key_of(path) == key;
+}
+
 bool Evaluated::depends_on(const std::string& key) const {
-  const std::string name = std::filesystem::path(key).filename();
-  const auto is_file = [&](const std::string& path) {
-    return path.ends_with(name) && TextOverlay::key_of(path) == key;
-  };
+  const auto is_file = [&](const std::string& path) { return has_key(path, key); };
   return std::ranges::any_of(files_read, is_file) || std::ranges::any_of(lookups, is_file);
 }
 

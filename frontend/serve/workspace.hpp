@@ -37,6 +37,9 @@ struct Said {
 /// Returns a source file's text without what the evaluator has appended.
 std::string own_text(std::string_view text);
 
+/// Returns whether a file is the one of that key.
+bool has_key(const std::string& path, const std::string& key);
+
 /// What the evaluation of a version of a document has found.
 struct Evaluated {
   TextPointer text;     // of the document

@@ -13,8 +13,8 @@ const bounds = { min: [0, 0, 0] as Vec3, max: [10, 20, 30] as Vec3 };
 /** As much of a preview as a plane needs. */
 function planeOf(): SectionPlane {
   const wanted: { section?: Section | null } = {};
-  const setSection = (section: Section | null) => (wanted.section = section);
-  return new SectionPlane({ wanted, camera, design: { bounds }, setSection } as unknown as Preview);
+  const change = (part: typeof wanted) => Object.assign(wanted, part);
+  return new SectionPlane({ wanted, camera, design: { bounds }, change, move: change } as unknown as Preview);
 }
 
 function near(a: readonly number[], b: readonly number[]): void {

@@ -33,7 +33,7 @@ export function wordsOf(pick: Pick): string[] {
 export function relationOf(a: Pick, b: Pick): string[] {
   const between = subtract(b.position, a.position);
   const words = [`distance ${digits(length(between))}`, `difference ${coordinates(between)}`];
-  if (a.feature || b.feature) return words;
+  if (!a.flat || !b.flat) return words;
   const cosine = dot(a.normal, b.normal);
   if (Math.abs(cosine) > 1 - 1e-9) words.push(`parallel faces ${digits(Math.abs(dot(between, a.normal)))} apart`);
   else words.push(`angle of the normals ${digits((Math.acos(cosine) * 180) / Math.PI)}°`);

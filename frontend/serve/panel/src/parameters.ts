@@ -6,17 +6,6 @@ import type { Design, Parameter, Value } from './protocol';
 
 const equal = (a: Value, b: Value): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** Returns a step that divides a range into some hundreds; without one 1, or of a fraction its last digit. */
-export function stepOf(parameter: Parameter): number {
-  if (parameter.step !== undefined) return parameter.step;
-  const numbers = [parameter.default, parameter.min ?? 0, parameter.max ?? 0].flat() as number[];
-  if (numbers.every(Number.isInteger)) return 1;
-  const { min, max } = parameter;
-  if (min !== undefined && max !== undefined && max > min) return 10 ** Math.floor(Math.log10((max - min) / 100));
-  const decimals = Math.max(...numbers.map((x) => String(x).split('.')[1]?.length ?? 0));
-  return 10 ** -Math.min(decimals, 6);
-}
-
 /** A parameter's row. */
 class Row {
   readonly element: HTMLElement;
@@ -107,7 +96,7 @@ class Row {
   /** One number: a slider if it has a range, and a field. */
   private number(get: (value: Value) => number, put: (entered: number) => Value, label: string): HTMLElement {
     const { parameter } = this;
-    const limits: Record<string, string> = { step: String(stepOf(parameter)) };
+    const limits: Record<string, string> = { step: String(parameter.step ?? 'any') };
     if (parameter.min !== undefined) limits['min'] = String(parameter.min);
     if (parameter.max !== undefined) limits['max'] = String(parameter.max);
     const field = make('input', { type: 'number', 'aria-label': label, ...limits });

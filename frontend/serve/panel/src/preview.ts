@@ -2,7 +2,7 @@
 // connections: whenever there is a new one, the preview is opened again as it was.
 import type { Connection } from './connection';
 import { RequestError } from './connection';
-import type { Camera, Design, Frame, Insets, Look, Pick, Position, Section, Value } from './protocol';
+import type { Camera, Design, Frame, Insets, Look, Pick, Position, Value } from './protocol';
 import { Signal } from './signal';
 
 /** The view is at rest if nothing has moved it for so long. */
@@ -89,11 +89,6 @@ export class Preview {
     this.change({ ...part, moving: true });
     clearTimeout(this.restTimer);
     this.restTimer = setTimeout(() => this.change({ moving: false }), rest_ms);
-  }
-
-  setSection(section: Section | null, moving = false): void {
-    if (moving) this.move({ section });
-    else this.change({ section });
   }
 
   setParameters(values: Record<string, Value | null>): void {

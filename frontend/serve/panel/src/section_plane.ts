@@ -51,12 +51,12 @@ export class SectionPlane {
   }
 
   toggle(): void {
-    if (this.now) this.preview.setSection(null);
+    if (this.now) this.preview.change({ section: null });
     else this.layAcross(this.normal);
   }
 
   flip(): void {
-    if (this.now) this.preview.setSection({ ...this.now, flipped: !this.now.flipped });
+    if (this.now) this.preview.change({ section: { ...this.now, flipped: !this.now.flipped } });
   }
 
   /** Lays it across the middle of the design. */
@@ -86,7 +86,7 @@ export class SectionPlane {
   moveTo(position: number): void {
     const { now, bounds } = this;
     if (!now || !bounds) return;
-    this.preview.setSection({ ...now, position: clamp(position, ...positionsIn(bounds, now.normal)) }, true);
+    this.preview.move({ section: { ...now, position: clamp(position, ...positionsIn(bounds, now.normal)) } });
   }
 
   /** Turns it about the axes of the picture, and about its point that is nearest to the design's middle. */
@@ -103,7 +103,7 @@ export class SectionPlane {
     const normal = unit(direction);
     if (!now || !bounds || !normal) return;
     this.normal = normal;
-    this.preview.setSection({ ...now, normal, position: dot(middleOf(now, bounds), normal) }, true);
+    this.preview.move({ section: { ...now, normal, position: dot(middleOf(now, bounds), normal) } });
   }
 
   /** Moves it so that it follows a drag in the picture along its normal, as that is seen. */
@@ -128,7 +128,7 @@ export class SectionPlane {
     const { camera } = this.preview;
     if (!camera) return;
     this.normal = normal;
-    this.preview.setSection({ normal, position: dot(normal, point), flipped: dot(viewOf(camera).forward, normal) > 0 });
+    this.preview.change({ section: { normal, position: dot(normal, point), flipped: dot(viewOf(camera).forward, normal) > 0 } });
   }
 }
 
