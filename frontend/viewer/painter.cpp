@@ -38,7 +38,7 @@ constexpr double kMostOfPicture = 0.5;
 constexpr double kWholeShare = 0.85;
 
 /// The directions of the studio's light in the first picture that has it, and in the last.
-constexpr uint32_t kFewDirections = 64, kManyDirections = 128;
+constexpr uint32_t kFewDirections = 64, kManyDirections = 256;
 
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {
@@ -47,6 +47,7 @@ frontend::RenderSettings last_settings(const PaintOrder& order) {
   if (draws_studio(settings)) {
     settings.samples = std::max(settings.samples, frontend::kStudioSamples);
     settings.studio.directions = kManyDirections;
+    settings.studio.shares_light = false;
   }
   return settings;
 }
@@ -56,9 +57,10 @@ frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
   frontend::RenderSettings settings = last_settings(order);
   if (order.is_moving) settings.samples = 1;
   if (!draws_studio(settings) || step == Step::kFinal) return settings;
-  settings.samples = 1;
   settings.studio.directions = kFewDirections;
+  settings.studio.shares_light = true;
   if (step == Step::kColors) {
+    settings.samples = 1;
     settings.studio.shadows = settings.studio.occlusion = settings.studio.edges = 0;
   }
   return settings;

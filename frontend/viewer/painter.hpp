@@ -46,8 +46,8 @@ struct PaintOrder {
 /// Returns whether both give the same picture.
 bool show_the_same(const PaintOrder& a, const PaintOrder& b);
 
-/// The steps to a picture in the studio's light: its colours alone, then what hides light, by one
-/// ray a pixel and few directions, then all that is asked for.
+/// The steps to a picture in the studio's light: its colours alone by one ray a pixel, then what
+/// hides light, by few directions that pixels share, then by many of each pixel's own.
 enum class Step : uint8_t { kColors, kLit, kFinal };
 
 struct Painting {

@@ -174,8 +174,8 @@ TEST_F(PainterTest, LightsAStudioInSteps) {
   PaintOrder order = order_of(design_of(window_test::kBlock));
   order.settings.shading = frontend::Shading::kStudio;
   PaintOrder final = order, lit = order, colors = order;
-  final.settings.samples = frontend::kStudioSamples;
-  final.settings.studio.directions = 128;
+  final.settings.samples = lit.settings.samples = frontend::kStudioSamples;
+  final.settings.studio.shares_light = false;
   lit.settings.studio.directions = 64;
   colors.settings.studio = {0, 0, 0};
   for (const bool is_moving : {false, true}) {
@@ -432,7 +432,7 @@ TEST_F(ProbeTest, AnswersProbesBeforeItRefines) {
     painter.probe(probe_of(window_test::kBlock, 5, 5));
     next_finding();
   }
-  order.settings.studio.directions = 128;
+  order.settings.studio.shares_light = false;
   EXPECT_TRUE(next_final().image.rgb == command_picture(order).rgb);
 }
 

@@ -16,9 +16,15 @@ struct StudioSettings {
   double shadows = 1;    // of the key light
   double occlusion = 1;  // of what comes from all around
   double edges = 1;      // lines where faces meet or end
-  /// The directions of the whole sky that are asked, in 16 parts by neighbouring pixels: a multiple
-  /// of 64. A quarter as many go to the key light.
+  /// The directions of the whole sky that are asked: a multiple of 64. A quarter as many go to the
+  /// key light.
   uint32_t directions = 256;
+  /// Whether neighbouring pixels ask parts of them for each other, where the same face goes on:
+  /// faster, but light is smoothed over 5 × 5 blocks.
+  bool shares_light = true;
+  /// Where the picture is made smaller afterwards: the side of the squares of pixels that become
+  /// one, which share their light as far as they show the same face. At least 1.
+  uint32_t block_px = 1;
   bool shows_any() const { return shadows > 0 || occlusion > 0 || edges > 0; }
   bool operator==(const StudioSettings&) const = default;
 };

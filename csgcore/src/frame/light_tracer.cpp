@@ -24,8 +24,8 @@ constexpr double kLeastSize = 1e-9;
 
 /// Returns an orthographic view along −to_light of the points' rectangle, with about one pixel a
 /// point.
-View light_view(const SurfacePoints& points, std::span<const uint32_t> asked,
-                std::span<const uint32_t> facing, const Vec3& to_light) {
+View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
+                const Vec3& to_light) {
   View view;
   view.projection = Projection::kOrthographic;
   view.forward = -to_light;
@@ -34,8 +34,8 @@ View light_view(const SurfacePoints& points, std::span<const uint32_t> asked,
   view.up = glm::cross(view.right, view.forward);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 low(kInfinity), high(-kInfinity);
-  for (const uint32_t ray : facing) {
-    const Vec3& p = points.position[asked[ray]];
+  for (const uint32_t point : facing) {
+    const Vec3& p = points.position[point];
     const Vec3 seen(glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward));
     low = glm::min(low, seen);
     high = glm::max(high, seen);
@@ -71,25 +71,28 @@ LightTracer::~LightTracer() = default;
 /// The rays of one direction, sorted by the pixels of its view that they go through.
 class LightTracer::Rays final : public TileVisitor {
  public:
-  Rays(const FrameRays& frame, const SurfacePoints& points, std::span<const uint32_t> asked,
-       std::span<const uint32_t> facing, double tolerance, std::span<uint8_t> lit)
-      : frame_(frame),
-        points_(points),
-        asked_(asked),
-        tolerance_(tolerance),
-        lit_(lit),
-        first_(size_t{frame.view.width_px} * frame.view.height_px + 1) {
-    std::vector<uint32_t> pixel_of(facing.size());
-    for (size_t i = 0; i < facing.size(); ++i) {
-      const Vec3 from_eye = position(facing[i]) - frame.view.eye;
-      pixel_of[i] =
-          pixel_at(glm::dot(from_eye, frame.view.right), glm::dot(from_eye, frame.view.up));
-      ++first_[pixel_of[i] + 1];
+  Rays(const FrameRays& frame, const SurfacePoints& points, std::span<const uint32_t> facing,
+       double tolerance, std::span<uint8_t> lit)
+      : frame_(frame), lit_(lit), first_(size_t{frame.view.width_px} * frame.view.height_px + 1) {
+    const View& view = frame.view;
+    std::vector<Ray> rays;
+    std::vector<uint32_t> pixel_of;
+    rays.reserve(facing.size());
+    pixel_of.reserve(facing.size());
+    for (const uint32_t point : facing) {
+      const Vec3& position = points.position[point];
+      const Vec3 from_eye = position - view.eye;
+      const double cosine = -glm::dot(points.normal[point], view.forward);
+      const Ray ray{glm::dot(from_eye, view.right), glm::dot(from_eye, view.up),
+                    glm::dot(position - frame.pivot, view.forward) - tolerance / cosine, point};
+      rays.push_back(ray);
+      pixel_of.push_back(pixel_at(ray.u, ray.v));
+      ++first_[pixel_of.back() + 1];
     }
     for (size_t pixel = 1; pixel < first_.size(); ++pixel) first_[pixel] += first_[pixel - 1];
-    sorted_.resize(facing.size());
+    sorted_.resize(rays.size());
     std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-    for (size_t i = 0; i < facing.size(); ++i) sorted_[next[pixel_of[i]]++] = facing[i];
+    for (size_t i = 0; i < rays.size(); ++i) sorted_[next[pixel_of[i]]++] = rays[i];
   }
 
   bool wants(const Tile& tile) const override {
@@ -100,13 +103,13 @@ class LightTracer::Rays final : public TileVisitor {
   }
 
   void visit_empty(const Tile& tile) override {
-    for_each_ray(tile, [&](uint32_t ray) { lit_[ray] = 1; });
+    for_each_ray(tile, [&](const Ray& ray) { lit_[ray.point] = 1; });
   }
 
   void visit(const Tile& tile, TileRays& rays) override {
-    uint32_t packet[kPacketRays];
+    Ray packet[kPacketRays];
     uint32_t count = 0;
-    for_each_ray(tile, [&](uint32_t ray) {
+    for_each_ray(tile, [&](const Ray& ray) {
       packet[count++] = ray;
       if (count < kPacketRays) return;
       trace({packet, count}, rays);
@@ -116,7 +119,12 @@ class LightTracer::Rays final : public TileVisitor {
   }
 
  private:
-  const Vec3& position(uint32_t ray) const { return points_.position[asked_[ray]]; }
+  struct Ray {
+    double u, v;         // where it goes through the view's plane, from the middle
+    double least_depth;  // along it, from the pivot on: what lies before is the point's own face,
+                         // or shades the point
+    uint32_t point;
+  };
 
   uint32_t pixel_at(double u, double v) const {
     const View& view = frame_.view;
@@ -141,13 +149,12 @@ class LightTracer::Rays final : public TileVisitor {
     }
   }
 
-  void trace(std::span<const uint32_t> packet, TileRays& rays) {
-    const View& view = frame_.view;
+  void trace(std::span<const Ray> packet, TileRays& rays) {
     PacketLaterals laterals{};
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-      const Vec3 from_eye = position(packet[lane < packet.size() ? lane : 0]) - view.eye;
-      laterals.u[lane] = glm::dot(from_eye, view.right);
-      laterals.v[lane] = glm::dot(from_eye, view.up);
+      const Ray& ray = packet[lane < packet.size() ? lane : 0];
+      laterals.u[lane] = ray.u;
+      laterals.v[lane] = ray.v;
     }
     RayPacket ray_packet;
     make_rays(frame_, laterals, ray_packet);
@@ -156,46 +163,35 @@ class LightTracer::Rays final : public TileVisitor {
     PacketHits hits;
     rays.trace(ray_packet, lanes, hits);
     for (uint32_t lane = 0; lane < packet.size(); ++lane) {
-      const uint32_t ray = packet[lane];
+      const Vec3 origin{ray_packet.origin[0][lane], ray_packet.origin[1][lane],
+                        ray_packet.origin[2][lane]};
+      const double depth = hits.t[lane] + glm::dot(origin, frame_.view.forward);
       const bool is_hit = (hits.hits >> lane & 1) != 0;
-      lit_[ray] = !is_hit || hits.t[lane] >= least_t(ray, ray_packet, lane);
+      lit_[packet[lane].point] = !is_hit || depth >= packet[lane].least_depth;
     }
   }
 
-  /// Returns from which t on a crossing does not lie before the ray's point.
-  double least_t(uint32_t ray, const RayPacket& rays, uint32_t lane) const {
-    const View& view = frame_.view;
-    const Vec3 origin{rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]};
-    const double t = glm::dot(position(ray) - frame_.pivot - origin, view.forward);
-    const double cosine = -glm::dot(points_.normal[asked_[ray]], view.forward);
-    return t - tolerance_ / cosine;
-  }
-
   const FrameRays& frame_;
-  const SurfacePoints& points_;
-  const std::span<const uint32_t> asked_;
-  const double tolerance_;  // along normals, world units
   const std::span<uint8_t> lit_;
-  std::vector<uint32_t> first_;   // by pixel: the place of its first ray in sorted_
-  std::vector<uint32_t> sorted_;  // rays, by pixels
+  std::vector<uint32_t> first_;  // by pixel: the place of its first ray in sorted_
+  std::vector<Ray> sorted_;      // by pixels
 };
 
-void LightTracer::find_lit(const SurfacePoints& points, std::span<const uint32_t> asked,
-                           const Vec3& to_light, std::span<uint8_t> lit,
-                           const std::stop_token& stop) const {
+void LightTracer::find_lit(const SurfacePoints& points, const Vec3& to_light,
+                           std::span<uint8_t> lit, const std::stop_token& stop) const {
   std::vector<uint32_t> facing;
-  for (uint32_t i = 0; i < asked.size(); ++i) {
+  for (uint32_t i = 0; i < points.normal.size(); ++i) {
     lit[i] = 0;
-    if (glm::dot(points.normal[asked[i]], to_light) > 0) facing.push_back(i);
+    if (glm::dot(points.normal[i], to_light) > 0) facing.push_back(i);
   }
   if (facing.empty()) return;
-  const View view = light_view(points, asked, facing, to_light);
+  const View view = light_view(points, facing, to_light);
   const FrameRays frame = frame_rays(view, solid_.bounds());
   TraceParameters parameters;
   parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());
   parameters.stop = stop;
   TileTracer tracer(solid_, frame, parameters, TileRules{.centers_only = false}, memory_->tiles);
-  Rays rays(frame, points, asked, facing, 2 * parameters.thickness_tolerance, lit);
+  Rays rays(frame, points, facing, 2 * parameters.thickness_tolerance, lit);
   tracer.visit({0, 0, view.width_px, view.height_px}, rays);
 }
 

@@ -1,16 +1,22 @@
-// Each point that is seen asks a part of the directions; the 16 pixels of any square of 4 × 4 have
-// all of them (interleaved sampling: Keller and Heidrich, Rendering Techniques 2001). So a point's
-// light is that of the square around it, as far as the same face goes on there.
+// The pixels of a block that show the same face share a point of it. Where the light of points
+// beside each other is shared, a point asks a part of the directions, one of 16 groups, so that the
+// points of any square of 4 × 4 blocks have all of them (interleaved sampling: Keller and Heidrich,
+// Rendering Techniques 2001), and its light is that of the points around it on the same face. It
+// also asks the groups that no such neighbour asks. So each has an answer to every direction,
+// however small its face is.
 #include "csgcore/studio.hpp"
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/worker_threads.hpp"
@@ -20,8 +26,17 @@
 namespace csgcore {
 namespace {
 
-constexpr uint32_t kSquare_px = 4;
-constexpr uint32_t kGroups = kSquare_px * kSquare_px;
+/// The side of the square of blocks whose points ask all groups.
+constexpr uint32_t kSquareBlocks = 4;
+constexpr uint32_t kGroups = kSquareBlocks * kSquareBlocks;
+using Groups = uint16_t;  // bits
+static_assert(kGroups == 16);
+/// A point's neighbours are in at most so many blocks to each side.
+constexpr uint32_t kReachBlocks = 2;
+/// Neighbours share their groups by bands of so many rows of blocks, first every other band and
+/// then those between, which therefore can be dealt with at once.
+constexpr uint32_t kBandRows = 16;
+static_assert(kBandRows > 2 * kReachBlocks);
 /// One direction goes to the key light for so many of the whole sky.
 constexpr uint32_t kPerKeyDirection = 4;
 /// The tangent of the angle between the middle of the key light, which is a disc, and its rim:
@@ -60,16 +75,22 @@ Vec3 key_direction(const View& view, const Vec3& key, uint32_t i, uint32_t n) {
 struct Light {
   float sky = 0, open_sky = 0;
   float key = 0, open_key = 0;
-  Light& operator+=(const Light& other) {
-    sky += other.sky;
-    open_sky += other.open_sky;
-    key += other.key;
-    open_key += other.open_key;
-    return *this;
+  void add(const Light& other, float weight) {
+    sky += weight * other.sky;
+    open_sky += weight * other.open_sky;
+    key += weight * other.key;
+    open_key += weight * other.open_key;
   }
 };
 
 float share(float part, float all) { return all > 0 ? part / all : 1; }
+
+template <typename Visit>
+void for_each_group(Groups groups, const Visit& visit) {
+  for (unsigned left = groups; left != 0; left &= left - 1) {
+    visit(static_cast<uint32_t>(std::countr_zero(left)));
+  }
+}
 
 class Studio {
  public:
@@ -87,17 +108,23 @@ class Studio {
     trace(solid_, view_, options_, hits_, of_hits);
     stats.rays += of_hits.rays;
     stats.intersections += of_hits.intersections;
-    collect_points();
     const bool has_light = settings_.occlusion > 0 || settings_.shadows > 0;
-    if (has_light) ask_for_light();
+    if (has_light) {
+      collect_points();
+      find_neighbours();
+      share_groups();
+      ask_for_light();
+    }
     if (options_.stop.stop_requested()) return;
     tbb::parallel_for(uint32_t{0}, view_.height_px, [&](uint32_t y) {
       for (uint32_t x = 0; x < view_.width_px; ++x) {
-        double factor = has_light ? light_at(x, y) : 1;
+        const size_t pixel = index(x, y);
+        if (hits_.primitive[pixel] == Hits::kMiss) continue;
+        double factor = has_light ? light_at(pixel) : 1;
         if (settings_.edges > 0 && is_edge(x, y)) {
           factor *= 1 - settings_.edges * (1 - kLineShade);
         }
-        for (uint8_t& channel : image_.rgb[index(x, y)]) {
+        for (uint8_t& channel : image_.rgb[pixel]) {
           channel = static_cast<uint8_t>(channel * factor + 0.5);
         }
       }
@@ -105,6 +132,19 @@ class Studio {
   }
 
  private:
+  /// The points of a row of blocks, and their neighbours.
+  struct Row {
+    uint32_t first = 0;                 // of all points
+    std::vector<uint32_t> blocks;       // by block: its first point in this row; and the end
+    std::vector<uint32_t> pixels;       // of each point in turn
+    std::vector<uint32_t> first_pixel;  // by point: of its part of `pixels`; and the end
+    std::vector<uint32_t> neighbours;   // of each point in turn, among all points
+    std::vector<uint32_t> ends;         // by point: of its part of `neighbours`
+    uint32_t size() const { return static_cast<uint32_t>(first_pixel.size()) - 1; }
+    /// A pixel of a point, for all tests of what face it is of.
+    uint32_t pixel(uint32_t point) const { return pixels[first_pixel[point]]; }
+  };
+
   size_t index(uint32_t x, uint32_t y) const { return size_t{y} * view_.width_px + x; }
 
   Vec3 towards_viewer(const Vec3& position) const {
@@ -116,41 +156,161 @@ class Studio {
     return color && color->a < 1;
   }
 
-  /// Faces that are seen from within the solid have no light of their own to lose, and what is seen
-  /// through translucent ones has another.
+  /// Whether light falls on what a pixel shows. Faces that are seen from within the solid have no
+  /// light of their own to lose, and what is seen through translucent ones has another.
+  bool is_lit_from_outside(size_t pixel) const {
+    return hits_.primitive[pixel] != Hits::kMiss && !is_translucent(hits_.primitive[pixel]) &&
+           glm::dot(hits_.normal[pixel], towards_viewer(hits_.position[pixel])) > 0;
+  }
+
   void collect_points() {
+    const uint32_t side = settings_.block_px;
+    columns_ = (view_.width_px + side - 1) / side;
+    rows_.resize((view_.height_px + side - 1) / side);
     point_of_.assign(hits_.s.size(), kNoPoint);
-    for (uint32_t y = 0; y < view_.height_px; ++y) {
-      for (uint32_t x = 0; x < view_.width_px; ++x) {
-        const size_t pixel = index(x, y);
-        if (hits_.primitive[pixel] == Hits::kMiss || is_translucent(hits_.primitive[pixel]))
-          continue;
-        const Vec3& position = hits_.position[pixel];
-        if (!(glm::dot(hits_.normal[pixel], towards_viewer(position)) > 0)) continue;
-        const auto point = static_cast<uint32_t>(positions_.size());
-        point_of_[pixel] = point;
-        positions_.push_back(position);
-        normals_.push_back(hits_.normal[pixel]);
-        groups_[y % kSquare_px * kSquare_px + x % kSquare_px].push_back(point);
+    const auto for_each_pixel = [&](uint32_t column, uint32_t row, const auto& visit) {
+      for (uint32_t y = row * side; y < std::min((row + 1) * side, view_.height_px); ++y) {
+        for (uint32_t x = column * side; x < std::min((column + 1) * side, view_.width_px); ++x) {
+          visit(index(x, y));
+        }
       }
+    };
+    const auto count = static_cast<uint32_t>(rows_.size());
+    tbb::parallel_for(uint32_t{0}, count, [&](uint32_t y) {
+      Row& row = rows_[y];
+      std::vector<std::vector<uint32_t>> faces(size_t{side} * side);
+      for (uint32_t column = 0; column < columns_; ++column) {
+        size_t found = 0;
+        for_each_pixel(column, y, [&](size_t pixel) {
+          if (!is_lit_from_outside(pixel)) return;
+          size_t face = 0;
+          while (face < found && !are_of_one_face(pixel, faces[face].front())) ++face;
+          if (face == found) faces[found++].clear();
+          faces[face].push_back(static_cast<uint32_t>(pixel));
+        });
+        row.blocks.push_back(static_cast<uint32_t>(row.first_pixel.size()));
+        for (size_t face = 0; face < found; ++face) {
+          const auto point = static_cast<uint32_t>(row.first_pixel.size());
+          row.first_pixel.push_back(static_cast<uint32_t>(row.pixels.size()));
+          for (const uint32_t pixel : faces[face]) {
+            row.pixels.push_back(pixel);
+            point_of_[pixel] = point;
+          }
+        }
+      }
+      row.blocks.push_back(static_cast<uint32_t>(row.first_pixel.size()));
+      row.first_pixel.push_back(static_cast<uint32_t>(row.pixels.size()));
+    });
+    uint32_t points = 0;
+    for (Row& row : rows_) {
+      row.first = points;
+      points += row.size();
     }
-    sums_.resize(positions_.size());
+    asked_.resize(points);
+    lights_.resize(points);
+    tbb::parallel_for(uint32_t{0}, count, [&](uint32_t y) {
+      for (const uint32_t pixel : rows_[y].pixels) point_of_[pixel] += rows_[y].first;
+    });
+  }
+
+  /// Returns the point of a block that is on the same face as what a pixel shows, or kNoPoint.
+  uint32_t point_of_face(uint32_t column, uint32_t row, size_t pixel) const {
+    const Row& points = rows_[row];
+    for (uint32_t i = points.blocks[column]; i < points.blocks[column + 1]; ++i) {
+      if (are_of_one_face(pixel, points.pixel(i))) return points.first + i;
+    }
+    return kNoPoint;
+  }
+
+  /// Calls visit(column, row, i) for the i-th point of each row, in parallel for rows.
+  template <typename Visit>
+  void for_each_point(const Visit& visit) const {
+    tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(rows_.size()), [&](uint32_t y) {
+      for (uint32_t column = 0; column < columns_; ++column) {
+        for (uint32_t i = rows_[y].blocks[column]; i < rows_[y].blocks[column + 1]; ++i) {
+          visit(column, y, i);
+        }
+      }
+    });
+  }
+
+  void find_neighbours() {
+    const uint32_t reach = settings_.shares_light ? kReachBlocks : 0;
+    const auto rows = static_cast<uint32_t>(rows_.size());
+    for_each_point([&](uint32_t column, uint32_t row, uint32_t i) {
+      Row& own = rows_[row];
+      for (uint32_t y = row - std::min(row, reach); y <= std::min(row + reach, rows - 1); ++y) {
+        for (uint32_t x = column - std::min(column, reach);
+             x <= std::min(column + reach, columns_ - 1); ++x) {
+          const uint32_t other =
+              x == column && y == row ? own.first + i : point_of_face(x, y, own.pixel(i));
+          if (other != kNoPoint) own.neighbours.push_back(other);
+        }
+      }
+      own.ends.push_back(static_cast<uint32_t>(own.neighbours.size()));
+    });
+  }
+
+  /// The neighbours of a row's point, itself included.
+  static std::span<const uint32_t> neighbours_of(const Row& row, uint32_t i) {
+    const uint32_t begin = i == 0 ? 0 : row.ends[i - 1];
+    return {row.neighbours.data() + begin, row.ends[i] - begin};
+  }
+
+  void share_groups() {
+    for_each_point([&](uint32_t column, uint32_t row, uint32_t i) {
+      const uint32_t group = row % kSquareBlocks * kSquareBlocks + column % kSquareBlocks;
+      asked_[rows_[row].first + i] = static_cast<Groups>(1u << group);
+    });
+    const uint32_t bands = (static_cast<uint32_t>(rows_.size()) + kBandRows - 1) / kBandRows;
+    for (const uint32_t first : {0u, 1u}) {
+      tbb::parallel_for(first, bands, 2u, [&](uint32_t band) {
+        const size_t end = std::min(size_t{band + 1} * kBandRows, rows_.size());
+        for (size_t y = size_t{band} * kBandRows; y < end; ++y) {
+          for (uint32_t i = 0; i < rows_[y].size(); ++i) {
+            unsigned answered = 0;
+            for (const uint32_t other : neighbours_of(rows_[y], i)) answered |= asked_[other];
+            Groups& asked = asked_[rows_[y].first + i];
+            asked = static_cast<Groups>(asked | ~answered);
+          }
+        }
+      });
+    }
+    uint32_t sums = 0;
+    for (const Groups asked : asked_) {
+      sums_before_.push_back(sums);
+      sums += static_cast<uint32_t>(std::popcount(asked));
+    }
+    sums_.resize(sums);
   }
 
   void ask_for_light() {
     const LightTracer tracer(solid_);
     tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
-      const std::vector<uint32_t>& asked = groups_[group];
-      std::vector<uint8_t> lit(asked.size());
+      std::vector<Vec3> positions, normals;
+      std::vector<uint32_t> sums;
+      for (const Row& row : rows_) {
+        for (uint32_t i = 0; i < row.size(); ++i) {
+          const Groups groups = asked_[row.first + i];
+          if ((groups >> group & 1) == 0) continue;
+          const uint32_t begin = row.first_pixel[i], end = row.first_pixel[i + 1];
+          const uint32_t pixel = row.pixels[begin + group % (end - begin)];
+          positions.push_back(hits_.position[pixel]);
+          normals.push_back(hits_.normal[pixel]);
+          const unsigned before = groups & ((1u << group) - 1);
+          sums.push_back(sums_before_[row.first + i] +
+                         static_cast<uint32_t>(std::popcount(before)));
+        }
+      }
+      std::vector<Light> lights(sums.size());
+      std::vector<uint8_t> lit(sums.size());
       const auto ask = [&](const Vec3& direction, float Light::*all, float Light::*open) {
         if (options_.stop.stop_requested()) return;
-        tracer.find_lit({positions_, normals_}, asked, direction, lit, options_.stop);
-        for (size_t i = 0; i < asked.size(); ++i) {
-          const double cosine = glm::dot(normals_[asked[i]], direction);
-          if (cosine <= 0) continue;
-          Light& light = sums_[asked[i]];
-          light.*all += static_cast<float>(cosine);
-          if (lit[i] != 0) light.*open += static_cast<float>(cosine);
+        tracer.find_lit({positions, normals}, direction, lit, options_.stop);
+        for (size_t i = 0; i < sums.size(); ++i) {
+          const auto cosine = static_cast<float>(std::max(0.0, glm::dot(normals[i], direction)));
+          lights[i].*all += cosine;
+          lights[i].*open += lit[i] != 0 ? cosine : 0;
         }
       };
       if (settings_.occlusion > 0) {
@@ -165,7 +325,27 @@ class Studio {
           ask(key_direction(view_, light_.key, i, count), &Light::key, &Light::open_key);
         }
       }
+      for (size_t i = 0; i < sums.size(); ++i) sums_[sums[i]] = lights[i];
     });
+    for_each_point([&](uint32_t, uint32_t row, uint32_t i) {
+      lights_[rows_[row].first + i] = light_of(neighbours_of(rows_[row], i));
+    });
+  }
+
+  /// Returns the light of all of these points, to which each group counts the same.
+  Light light_of(std::span<const uint32_t> points) const {
+    std::array<uint32_t, kGroups> answers{};
+    for (const uint32_t point : points) {
+      for_each_group(asked_[point], [&](uint32_t group) { ++answers[group]; });
+    }
+    Light light;
+    for (const uint32_t point : points) {
+      uint32_t sum = sums_before_[point];
+      for_each_group(asked_[point], [&](uint32_t group) {
+        light.add(sums_[sum++], 1 / static_cast<float>(answers[group]));
+      });
+    }
+    return light;
   }
 
   /// Whether two pixels side by side, or nearly so, show the same smooth face.
@@ -181,40 +361,22 @@ class Studio {
     const Vec3 line = hits_.position[b] - hits_.position[a];
     const double rise = std::min(std::abs(glm::dot(hits_.normal[a], line)),
                                  std::abs(glm::dot(hits_.normal[b], line)));
-    return rise > kLargestRise * glm::length(line);
+    return rise * rise > kLargestRise * kLargestRise * glm::dot(line, line);
   }
 
   /// Returns by how much the colour of a pixel gets darker.
-  double light_at(uint32_t x, uint32_t y) const {
-    const size_t pixel = index(x, y);
+  double light_at(size_t pixel) const {
     if (point_of_[pixel] == kNoPoint) return 1;
-    Light sum;
-    for_each_near(x, y, [&](size_t other) {
-      if (point_of_[other] == kNoPoint || !are_of_one_face(pixel, other)) return;
-      sum += sums_[point_of_[other]];
-    });
-    const double open = 1 - settings_.occlusion * (1 - share(sum.open_sky, sum.sky));
-    const double key = 1 - settings_.shadows * (1 - share(sum.open_key, sum.key));
+    const Light& light = lights_[point_of_[pixel]];
+    const double open = 1 - settings_.occlusion * (1 - share(light.open_sky, light.sky));
+    const double key = 1 - settings_.shadows * (1 - share(light.open_key, light.key));
     const Vec3& normal = hits_.normal[pixel];
     return studio_shade(light_, normal, open, key) / studio_shade(light_, normal, 1, 1);
-  }
-
-  template <typename Visit>
-  void for_each_near(uint32_t x, uint32_t y, const Visit& visit) const {
-    constexpr uint32_t kBefore = kSquare_px / 2 - 1, kAfter = kSquare_px / 2;
-    for (uint32_t row = y - std::min(y, kBefore); row <= std::min(y + kAfter, view_.height_px - 1);
-         ++row) {
-      for (uint32_t column = x - std::min(x, kBefore);
-           column <= std::min(x + kAfter, view_.width_px - 1); ++column) {
-        visit(index(column, row));
-      }
-    }
   }
 
   /// Whether the face that the pixel shows ends beside it, before another one or in a crease.
   bool is_edge(uint32_t x, uint32_t y) const {
     const size_t pixel = index(x, y);
-    if (hits_.primitive[pixel] == Hits::kMiss) return false;
     const auto ends_at = [&](size_t other) {
       if (are_of_one_face(pixel, other)) return false;
       return hits_.primitive[other] == Hits::kMiss || !is_step(pixel, other) ||
@@ -232,10 +394,14 @@ class Studio {
   const TraceOptions& options_;
   Image& image_;
   Hits hits_;
+  uint32_t columns_ = 0;  // of blocks
+  std::vector<Row> rows_;
   std::vector<uint32_t> point_of_;  // by pixel; kNoPoint: it shows none that light falls on
-  std::vector<Vec3> positions_, normals_;
-  std::vector<Light> sums_;  // by point
-  std::array<std::vector<uint32_t>, kGroups> groups_;
+  // By point, row by row:
+  std::vector<Groups> asked_;
+  std::vector<uint32_t> sums_before_;
+  std::vector<Light> lights_;
+  std::vector<Light> sums_;  // of each point in turn, by the groups that it asks
 };
 
 }  // namespace

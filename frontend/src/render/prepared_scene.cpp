@@ -151,6 +151,7 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   view.height_px *= side;
   RenderSettings settings = request.settings;
   settings.samples = 1;
+  settings.studio.block_px = side;
   const PictureRequest of_fine{view, settings, request.stats};
   Image fine;
   if (composition.model_is_layered) {

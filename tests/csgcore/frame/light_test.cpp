@@ -51,7 +51,7 @@ SeenPoints seen_of(const Solid& solid, const View& view) {
 
 std::vector<uint8_t> lit(const Solid& solid, const SeenPoints& seen, const Vec3& to_light) {
   std::vector<uint8_t> result(seen.all.size());
-  LightTracer(solid).find_lit(seen.points(), seen.all, to_light, result);
+  LightTracer(solid).find_lit(seen.points(), to_light, result);
   return result;
 }
 
@@ -276,27 +276,72 @@ Image occluded_picture(const Solid& solid, const View& view, uint32_t directions
   return image;
 }
 
+/// The mean of how far the pixels of the solid are from those of the wanted picture, in levels.
+double mean_error(const Image& image, const Image& wanted, const Image& unlit) {
+  double sum = 0;
+  int count = 0;
+  for (size_t pixel = 0; pixel < wanted.rgb.size(); ++pixel) {
+    if (unlit.rgb[pixel] == unlit.rgb.front()) continue;  // the background
+    sum += std::abs(image.rgb[pixel][0] - wanted.rgb[pixel][0]);
+    ++count;
+  }
+  return sum / count;
+}
+
 TEST(Studio, ComesNearToManyDirections) {
   for (const char* const name : {"Ball", "Flush", "Repeated", "Spheres", "Cones", "Random40"}) {
     SCOPED_TRACE(name);
     const Solid solid = solid_of(checks::trace_scene(name).scene);
     View view = checks::view_of(solid.bounds(), glm::normalize(Vec3(-1, 2, -1.5)),
                                 4.5 * solid.bounds().diagonal());
-    view.width_px = view.height_px = 96;
-    const Image wanted = occluded_picture(solid, view, 1024);
-    for (const uint32_t directions : {64u, 256u}) {
+    view.width_px = view.height_px = 192;
+    const Image unlit = studio_picture(solid, view, {0, 0, 0});
+    const Image wanted = occluded_picture(solid, view, test_support::full_run() ? 4096 : 1024);
+    for (const bool shares_light : {true, false}) {
       StudioSettings settings{.shadows = 0, .edges = 0};
-      settings.directions = directions;
+      settings.directions = shares_light ? 64 : 256;
+      settings.shares_light = shares_light;
       const Image image = studio_picture(solid, view, settings);
-      double sum = 0;
-      for (size_t pixel = 0; pixel < wanted.rgb.size(); ++pixel) {
-        sum += std::abs(image.rgb[pixel][0] - wanted.rgb[pixel][0]);
-      }
-      const double mean = sum / static_cast<double>(wanted.rgb.size());
-      EXPECT_LT(mean, directions == 64 ? 2 : 1);
-      RecordProperty(std::string(name) + std::to_string(directions), std::to_string(mean));
+      EXPECT_LT(mean_error(image, wanted, unlit), shares_light ? 2 : 1);
     }
   }
+}
+
+/// A face of a few pixels has no neighbours that could ask all directions for it.
+TEST(Studio, LightsSmallFacesAsWell) {
+  std::vector<Primitive> primitives{
+      make_polyhedron(Polyhedron::box({{-10, -10, -5}, {10, 10, 0}}))};
+  for (int x = -9; x <= 9; x += 2) {
+    for (int y = -9; y <= 9; y += 2)
+      primitives.push_back(make_sphere(0.7, {Mat3(1.0), {x, y, 0.3}}));
+  }
+  const Solid solid = solid_of(test_support::scene_of(Op::kUnion, primitives));
+  const View view = from_above(solid.bounds());
+  const Image unlit = studio_picture(solid, view, {0, 0, 0});
+  const Image wanted = occluded_picture(solid, view, 1024);
+  StudioSettings settings{.shadows = 0, .edges = 0};
+  settings.directions = 64;
+  EXPECT_LT(mean_error(studio_picture(solid, view, settings), wanted, unlit), 7);
+}
+
+TEST(Studio, SharesLightWithinBlocks) {
+  const Solid solid = plate(Op::kUnion, {{{-3, -3, 0}, {3, 3, 4}}});
+  const View view = from_above(solid.bounds());
+  const auto uneven_blocks = [&](uint32_t block_px) {
+    StudioSettings settings{.shadows = 0, .edges = 0};
+    settings.shares_light = false;
+    settings.block_px = block_px;
+    const Image image = studio_picture(solid, view, settings);
+    int count = 0;
+    for (uint32_t y = 0; y < view.height_px; y += 2) {
+      for (uint32_t x = 0; x < view.width_px; x += 2) {
+        const auto* const pixel = &image.rgb[size_t{y} * view.width_px + x];
+        count += pixel[0] != pixel[1] || pixel[0] != pixel[view.width_px];
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(uneven_blocks(1), 2 * uneven_blocks(2));
 }
 
 TEST(Studio, ThreadsAndInstructionSetsDoNotMatter) {
