@@ -3,6 +3,7 @@
 // A direction of light is an orthographic view (paper §5, "from the light source point of view").
 // Where a picture's rays go through the centres of pixels, the rays of this view go through the
 // points that are asked about, and the solid's lists are restricted to its tiles as for a picture.
+// A light at a place is a perspective view, or up to six of them.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +38,14 @@ class LightTracer {
   void find_lit(const SurfacePoints& points, const Vec3& to_light, std::span<uint8_t> lit,
                 const std::stop_token& stop = {}) const;
 
+  /// Does the same for a light at a place (world space): whether the point sees it.
+  void find_lit_from(const SurfacePoints& points, const Vec3& light, std::span<uint8_t> lit,
+                     const std::stop_token& stop = {}) const;
+
  private:
   class Rays;
+  void look(const View& view, const SurfacePoints& points, std::span<const uint32_t> facing,
+            std::span<uint8_t> lit, const std::stop_token& stop) const;
   struct Memory;
   const Solid& solid_;
   const std::unique_ptr<Memory> memory_;

@@ -21,7 +21,8 @@ constexpr double kPhongExponent = 40.0;  // POV-Ray: phong_size
 /// from the light.
 constexpr double kPhongLightOffset = 0.5;
 
-/// A white point light that does not fade with distance and casts no shadow.
+/// A white point light that does not fade with distance. Renderers draw it unhindered
+/// (phong_shadows.hpp).
 struct PhongLight {
   Vec3 position_world{0.0};
 };

@@ -22,6 +22,28 @@ constexpr double kMostPixels = 4096;
 constexpr double kLeastWidth = 1e-6;
 constexpr double kLeastSize = 1e-9;
 
+/// Aims the view, whose forward is set.
+void set_axes(View& view) {
+  const Vec3 aside = std::abs(view.forward.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  view.right = glm::normalize(glm::cross(view.forward, aside));
+  view.up = glm::cross(view.right, view.forward);
+}
+
+/// Gives the view about `count` pixels, for what lies within this width and height. At least
+/// `least` counts of either.
+void set_pixels(double width, double height, double least, size_t count, View& view) {
+  const double area = std::max(width, least) * std::max(height, least);
+  const double pixel = std::max(
+      {std::sqrt(area / static_cast<double>(count)), width / kMostPixels, height / kMostPixels});
+  const auto pixels = [pixel](double length) {
+    return static_cast<uint32_t>(std::clamp(std::ceil(length / pixel), 0.0, kMostPixels)) + 1;
+  };
+  // Half a pixel more at each side keeps what lies at the edge within the picture.
+  view.width_px = pixels(width);
+  view.height_px = pixels(height);
+  view.half_height = 0.5 * pixel * view.height_px;
+}
+
 /// Returns an orthographic view along −to_light of the points' rectangle, with about one pixel a
 /// point.
 View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
@@ -29,9 +51,7 @@ View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
   View view;
   view.projection = Projection::kOrthographic;
   view.forward = -to_light;
-  const Vec3 aside = std::abs(to_light.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-  view.right = glm::normalize(glm::cross(view.forward, aside));
-  view.up = glm::cross(view.right, view.forward);
+  set_axes(view);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 low(kInfinity), high(-kInfinity);
   for (const uint32_t point : facing) {
@@ -42,20 +62,11 @@ View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
   }
   const Vec3 center = 0.5 * (low + high);
   view.eye = center.x * view.right + center.y * view.up + center.z * view.forward;
-  // Where the points lie in a line, or are one, the rectangle has some width all the same. Half a
-  // pixel more at each side keeps those at its edge within the picture.
+  // Where the points lie in a line, or are one, the rectangle has some width all the same.
   const double width = high.x - low.x, height = high.y - low.y;
   const double least = std::max({kLeastWidth * (width + height), kLeastSize * glm::length(center),
                                  std::numeric_limits<double>::min()});
-  const double area = std::max(width, least) * std::max(height, least);
-  const double pixel = std::max({std::sqrt(area / static_cast<double>(facing.size())),
-                                 width / kMostPixels, height / kMostPixels});
-  const auto pixels = [pixel](double length) {
-    return static_cast<uint32_t>(std::clamp(std::ceil(length / pixel), 0.0, kMostPixels)) + 1;
-  };
-  view.width_px = pixels(width);
-  view.height_px = pixels(height);
-  view.half_height = 0.5 * pixel * view.height_px;
+  set_pixels(width, height, least, facing.size(), view);
   return view;
 }
 
@@ -82,9 +93,17 @@ class LightTracer::Rays final : public TileVisitor {
     for (const uint32_t point : facing) {
       const Vec3& position = points.position[point];
       const Vec3 from_eye = position - view.eye;
-      const double cosine = -glm::dot(points.normal[point], view.forward);
-      const Ray ray{glm::dot(from_eye, view.right), glm::dot(from_eye, view.up),
-                    glm::dot(position - frame.pivot, view.forward) - tolerance / cosine, point};
+      double u = glm::dot(from_eye, view.right), v = glm::dot(from_eye, view.up);
+      Vec3 direction = view.forward;
+      if (view.projection == Projection::kPerspective) {
+        const double s = glm::dot(from_eye, view.forward);
+        u /= s;
+        v /= s;
+        direction += u * view.right + v * view.up;
+      }
+      const double cosine = -glm::dot(points.normal[point], direction);
+      const Ray ray{u, v, glm::dot(position - frame.pivot, view.forward) - tolerance / cosine,
+                    point};
       rays.push_back(ray);
       pixel_of.push_back(pixel_at(ray.u, ray.v));
       ++first_[pixel_of.back() + 1];
@@ -185,7 +204,54 @@ void LightTracer::find_lit(const SurfacePoints& points, const Vec3& to_light,
     if (glm::dot(points.normal[i], to_light) > 0) facing.push_back(i);
   }
   if (facing.empty()) return;
-  const View view = light_view(points, facing, to_light);
+  look(light_view(points, facing, to_light), points, facing, lit, stop);
+}
+
+void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
+                                std::span<uint8_t> lit, const std::stop_token& stop) const {
+  std::vector<uint32_t> facing;
+  Vec3 toward(0.0);
+  for (uint32_t i = 0; i < points.normal.size(); ++i) {
+    lit[i] = 0;
+    const Vec3 from_light = points.position[i] - light;
+    if (!(glm::dot(points.normal[i], from_light) < 0)) continue;
+    facing.push_back(i);
+    toward += glm::normalize(from_light);
+  }
+  if (facing.empty()) return;
+  View view;
+  view.eye = light;
+  view.forward = glm::length(toward) > 0 ? glm::normalize(toward) : Vec3{0, 0, 1};
+  set_axes(view);
+  // The sides of a cube around the light. Mostly all points are seen through the first of them.
+  const Vec3 axes[] = {view.forward, view.right, view.up, -view.forward, -view.right, -view.up};
+  std::vector<uint32_t> seen[std::size(axes)];
+  for (const uint32_t point : facing) {
+    const Vec3 from_light = points.position[point] - light;
+    const auto side = std::ranges::max_element(
+        axes, {}, [&](const Vec3& axis) { return glm::dot(axis, from_light); });
+    seen[side - axes].push_back(point);
+  }
+  for (size_t side = 0; side < std::size(axes); ++side) {
+    if (seen[side].empty()) continue;
+    view.forward = axes[side];
+    set_axes(view);
+    double width = 0, height = 0;
+    for (const uint32_t point : seen[side]) {
+      const Vec3 from_light = points.position[point] - light;
+      const double s = glm::dot(from_light, view.forward);
+      width = std::max(width, 2 * std::abs(glm::dot(from_light, view.right)) / s);
+      height = std::max(height, 2 * std::abs(glm::dot(from_light, view.up)) / s);
+    }
+    set_pixels(width, height, kLeastSize, seen[side].size(), view);
+    look(view, points, seen[side], lit, stop);
+  }
+}
+
+/// Answers for points that face the view's eye, and that lie within its picture.
+void LightTracer::look(const View& view, const SurfacePoints& points,
+                       std::span<const uint32_t> facing, std::span<uint8_t> lit,
+                       const std::stop_token& stop) const {
   const FrameRays frame = frame_rays(view, solid_.bounds());
   TraceParameters parameters;
   parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());

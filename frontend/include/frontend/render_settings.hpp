@@ -59,6 +59,7 @@ struct RenderSettings {
   std::optional<Rgb> from_within;
   Shading shading = Shading::kOpenScad;
   csgcore::StudioSettings studio;  // of Shading::kStudio
+  double phong_shadows = 0;        // how dark those of Shading::kPhong are, from 0 to 1
   Translucency translucency = Translucency::kFile;
   Show show = Show::kSurface;
   RendererKind renderer = RendererKind::kAuto;
@@ -87,6 +88,10 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
 
 /// Returns whether the studio's shadows, occlusion or edges are drawn.
 bool draws_studio(const RenderSettings& settings);
+
+/// Returns whether the light that a surface is drawn in is taken away where the solid hides it: the
+/// studio's or kPhong's.
+bool draws_shadows(const RenderSettings& settings);
 
 /// Returns OpenSCAD's colour schemes in its order; the first is the default.
 std::span<const ColorScheme> color_schemes();

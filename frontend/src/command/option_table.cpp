@@ -135,7 +135,7 @@ constexpr OptionRow kOwnOptions[] = {
      "openscad (default), phong or studio (the window's default): with occlusion, shadows and "
      "lines along edges",
      kOneOf<kShadings>},
-    {"shadows", Takes::kText, "S", "how dark the studio's shadows are, 0 to 1; default 1"},
+    {"shadows", Takes::kText, "S", "how dark shadows are, 0 to 1; default 1 of studio, 0 of phong"},
     {"occlusion", Takes::kText, "S",
      "how dark the studio's corners and hollows are, 0 to 1; default 1"},
     {"edges", Takes::kText, "S", "how dark the studio's lines are, 0 to 1; default 1"},

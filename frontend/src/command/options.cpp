@@ -110,14 +110,18 @@ void read_tolerance(const Arguments& arguments, Options& options) {
 void read_studio(const Arguments& arguments, Options& options) {
   csgcore::StudioSettings& studio = options.render.studio;
   const bool is_studio = options.render.shading == Shading::kStudio;
+  const bool is_phong = options.render.shading == Shading::kPhong;
   const auto read = [&](const char* option, double& strength) {
     strength = arguments.number<double>(option, 0, 1, strength);
-    if (arguments.has(option) && !is_studio) {
+    const bool is_shadows = &strength == &studio.shadows;
+    if (arguments.has(option) && !is_studio && !(is_shadows && is_phong)) {
       options.warnings.push_back("--" + std::string(option) +
-                                 " has no effect without --shading=studio");
+                                 " has no effect without --shading=studio" +
+                                 (is_shadows ? " or phong" : ""));
     }
   };
   read("shadows", studio.shadows);
+  if (is_phong && arguments.has("shadows")) options.render.phong_shadows = studio.shadows;
   read("occlusion", studio.occlusion);
   read("edges", studio.edges);
   if (is_studio && !arguments.has("samples")) options.render.samples = kStudioSamples;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/elapsed.hpp"
+#include "csgcore/phong_shadows.hpp"
 #include "csgcore/studio.hpp"
 #include "csgcore/surfaces.hpp"
 #include "csgcore/tracer.hpp"
@@ -132,10 +133,16 @@ class CpuRenderer final : public SolidRenderer {
 
 }  // namespace
 
-void finish_studio(const Solid& solid, const PictureRequest& request, Image& image) {
+void draw_shadows(const Solid& solid, const csgcore::Box& light_box, const PictureRequest& request,
+                  Image& image) {
   TraceStats stats;
-  csgcore::finish_studio(solid, request.view, request.settings.studio,
-                         trace_options(request.settings, Boundary::kFirst), image, stats);
+  const csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
+  if (draws_studio(request.settings)) {
+    csgcore::finish_studio(solid, request.view, request.settings.studio, options, image, stats);
+  } else {
+    csgcore::cast_phong_shadows(solid, request.view, light_box, request.settings.phong_shadows,
+                                options, image, stats);
+  }
   add(stats, request.stats);
 }
 

@@ -126,24 +126,24 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   const Composition composition = this->composition(renderer, request);
   const csgcore::FrameSettings frame =
       frame_settings(request.settings, !composition.layers.empty());
-  const bool is_studio = draws_studio(request.settings);
+  const bool has_shadows = draws_shadows(request.settings);
   // What layers are drawn over. Its measured channels are always the model's.
-  const bool wants_model = !(composition.model_is_layered || is_studio) ||
+  const bool wants_model = !(composition.model_is_layered || has_shadows) ||
                            request.settings.measured_channels || request.settings.depth_and_id ||
                            request.settings.show == Show::kCells;
   Image image = wants_model ? renderer.draw_model(model_, frame, request) : blank(request.view);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
-  if (request.settings.show == Show::kCells || (composition.layers.empty() && !is_studio)) {
+  if (request.settings.show == Show::kCells || (composition.layers.empty() && !has_shadows)) {
     return image;
   }
   const LayerSurfaces surfaces(composition.layers, frame, request.settings.translucency);
-  if (!composition.model_is_layered && !is_studio) {
+  if (!composition.model_is_layered && !has_shadows) {
     Compositor compositor(image, image.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, request, compositor);
     compositor.finish();
     return image;
   }
-  // Layers and the studio's light have one ray a pixel. So a smooth picture of them is one of more
+  // Layers and shadows have one ray a pixel. So a smooth picture of them is one of more
   // pixels, made smaller.
   const uint32_t side = rays_along_pixel(request);
   csgcore::View view = request.view;
@@ -159,14 +159,14 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
     fill_background(frame, fine);
   } else {
     fine = renderer.draw_model(model_, frame, of_fine);
-    finish_studio(model_, of_fine, fine);
+    draw_shadows(model_, scene_box_, of_fine, fine);
   }
   if (!composition.layers.empty()) {
     Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces);
     renderer.draw_layers(surfaces, of_fine, compositor);
     compositor.finish();
   }
-  if (is_studio && composition.model_is_layered) finish_studio(model_, of_fine, fine);
+  if (has_shadows && composition.model_is_layered) draw_shadows(model_, scene_box_, of_fine, fine);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
   return image;
 }
@@ -175,7 +175,7 @@ void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& reques
                            const PreparedScene& earlier, const csgcore::SceneEdit& edit,
                            Image& image) const {
   const bool has_layers = !layers_.empty() || !earlier.layers_.empty();
-  if (has_layers || draws_studio(request.settings) || is_within(request) ||
+  if (has_layers || draws_shadows(request.settings) || is_within(request) ||
       earlier.is_within(request) || request.settings.show == Show::kCells ||
       !renderer.draws_areas()) {
     image = draw(renderer, request);

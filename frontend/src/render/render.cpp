@@ -21,7 +21,7 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
     return std::tuple(s.scheme.background, s.scheme.background_below, s.scheme.front, s.scheme.back,
                       s.scheme.axes, s.from_within, s.shading, s.show, s.technique, s.samples,
                       s.leaf_primitives, s.threshold_px, s.measured_channels, s.depth_and_id,
-                      s.translucency);
+                      s.translucency, s.phong_shadows);
   };
   return what(a) == what(b) && a.studio == b.studio;
 }
@@ -29,6 +29,11 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
 bool draws_studio(const RenderSettings& settings) {
   return settings.shading == Shading::kStudio && settings.show == Show::kSurface &&
          settings.studio.shows_any();
+}
+
+bool draws_shadows(const RenderSettings& settings) {
+  return draws_studio(settings) || (settings.shading == Shading::kPhong &&
+                                    settings.show == Show::kSurface && settings.phong_shadows > 0);
 }
 
 }  // namespace frontend

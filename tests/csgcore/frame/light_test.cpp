@@ -13,6 +13,7 @@
 
 #include "checks.hpp"
 #include "csgcore/light_tracer.hpp"
+#include "csgcore/phong_shadows.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/studio.hpp"
 #include "csgcore/studio_light.hpp"
@@ -49,6 +50,12 @@ SeenPoints seen_of(const Solid& solid, const View& view) {
   return seen;
 }
 
+std::vector<uint8_t> lit_from(const Solid& solid, const SeenPoints& seen, const Vec3& light) {
+  std::vector<uint8_t> result(seen.position.size());
+  LightTracer(solid).find_lit_from(seen.points(), light, result);
+  return result;
+}
+
 std::vector<uint8_t> lit(const Solid& solid, const SeenPoints& seen, const Vec3& to_light) {
   std::vector<uint8_t> result(seen.all.size());
   LightTracer(solid).find_lit(seen.points(), to_light, result);
@@ -67,20 +74,27 @@ constexpr double kOwnFace = 1e-8;
 /// Says by the reference whether points are lit, as far as it does not depend on roundings.
 class LightReference {
  public:
-  LightReference(const Scene& scene, const Box& bounds, const Vec3& to_light)
-      : view_(checks::view_of(bounds, -to_light, 1)), reference_(scene, with_one_pixel(view_)) {}
+  /// The light comes along −to_light, or from so far away from the bounds' centre.
+  LightReference(const Scene& scene, const Box& bounds, const Vec3& to_light,
+                 std::optional<double> distance = {})
+      : view_(checks::view_of(bounds, -to_light, distance.value_or(1))),
+        reference_(scene, with_one_pixel(view_, distance.has_value())) {}
+  const Vec3& light() const { return view_.eye; }
 
   std::optional<bool> is_lit(const Vec3& position, const Vec3& normal) const {
-    const double cosine = -glm::dot(normal, view_.forward);
+    const Vec3 from_eye = position - view_.eye;
+    const double s = glm::dot(from_eye, view_.forward);
+    const bool is_perspective = view_.projection == Projection::kPerspective;
+    const Vec3 direction = is_perspective ? from_eye / s : view_.forward;
+    const double cosine = -glm::dot(normal, direction);
     const double size = reference_.model_size();
     if (std::abs(cosine) < kLeastCosine) return std::nullopt;
     if (cosine < 0) return false;
-    const Vec3 from_eye = position - view_.eye;
     // A view of one pixel has the height of 2 half_height.
-    const double px = 2 * view_.half_height;
+    const double px = 2 * view_.half_height * (is_perspective ? s : 1);
     const double x = glm::dot(from_eye, view_.right) / px;
     const double y = -glm::dot(from_eye, view_.up) / px;
-    const double least_s = glm::dot(from_eye, view_.forward) - kOwnFace * size / cosine;
+    const double least_s = s - kOwnFace * size / cosine;
     const auto by = [&](double right, double up) {
       const LongVec3 shift = LongVec3(kSideways * size * (right * view_.right + up * view_.up));
       const ReferenceHit hit = reference_.at(x, y, shift);
@@ -94,8 +108,8 @@ class LightReference {
   }
 
  private:
-  static View& with_one_pixel(View& view) {
-    view.projection = Projection::kOrthographic;
+  static View& with_one_pixel(View& view, bool is_perspective) {
+    view.projection = is_perspective ? Projection::kPerspective : Projection::kOrthographic;
     view.width_px = view.height_px = 1;
     view.half_height = 1;
     return view;
@@ -120,20 +134,61 @@ TEST(LightTracer, SaysWhatTheReferenceSays) {
       const SeenPoints seen = seen_of(solid, view);
       for (int light = 0; light < directions; ++light) {
         const Vec3 to_light = checks::random_direction(random);
-        const std::vector<uint8_t> found = lit(solid, seen, to_light);
-        const LightReference reference(scene, solid.bounds(), to_light);
-        for (const uint32_t i : seen.all) {
-          const std::optional<bool> wanted = reference.is_lit(seen.position[i], seen.normal[i]);
-          if (!wanted) continue;
-          EXPECT_EQ(found[i] != 0, *wanted) << i;
-          ++(*wanted ? lights : shadows);
-        }
+        const auto compare = [&](const LightReference& reference,
+                                 const std::vector<uint8_t>& found) {
+          for (const uint32_t i : seen.all) {
+            const std::optional<bool> wanted = reference.is_lit(seen.position[i], seen.normal[i]);
+            if (!wanted) continue;
+            EXPECT_EQ(found[i] != 0, *wanted) << i;
+            ++(*wanted ? lights : shadows);
+          }
+        };
+        compare({scene, solid.bounds(), to_light}, lit(solid, seen, to_light));
+        const LightReference near(scene, solid.bounds(), to_light, 0.8 * solid.bounds().diagonal());
+        compare(near, lit_from(solid, seen, near.light()));
       }
     }
   }
   EXPECT_GT(lights, 1000);
   EXPECT_GT(shadows, 1000);
   std::printf("%d points in the light, %d in shadow\n", lights, shadows);
+}
+
+TEST(LightTracer, LightShinesAllAround) {
+  const Solid solid = solid_of(test_support::scene_of(
+      Op::kUnion, {make_polyhedron(Polyhedron::box({{-12, -12, -12}, {12, 12, -10}})),
+                   make_polyhedron(Polyhedron::box({{-12, -12, 10}, {12, 12, 12}})),
+                   make_polyhedron(Polyhedron::box({{-12, -12, -12}, {12, -10, 12}})),
+                   make_polyhedron(Polyhedron::box({{-12, 10, -12}, {12, 12, 12}})),
+                   make_polyhedron(Polyhedron::box({{-12, -12, -12}, {-10, 12, 12}})),
+                   make_polyhedron(Polyhedron::box({{10, -12, -12}, {12, 12, 12}})),
+                   make_sphere(1, {Mat3(1.0), {-2, 2, 1}})}));
+  // On the walls of the room between these boxes.
+  SeenPoints seen;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      for (int i = 0; i < 400; ++i) {
+        Vec3 position(0.0), normal(0.0);
+        position[axis] = 10 * side;
+        normal[axis] = -side;
+        position[(axis + 1) % 3] = i % 20 - 9.37;
+        position[(axis + 2) % 3] = i / 20 - 9.61;
+        seen.position.push_back(position);
+        seen.normal.push_back(normal);
+      }
+    }
+  }
+  const Vec3 light(1, 0.5, -0.3), to_ball = Vec3(-2, 2, 1) - light;
+  const std::vector<uint8_t> found = lit_from(solid, seen, light);
+  int shadows = 0;
+  for (size_t i = 0; i < found.size(); ++i) {
+    const Vec3 to_wall = glm::normalize(seen.position[i] - light);
+    const bool is_hidden =
+        glm::dot(to_wall, to_ball) > 0 && glm::length(glm::cross(to_wall, to_ball)) < 1;
+    EXPECT_EQ(found[i] == 0, is_hidden) << i;
+    shadows += is_hidden;
+  }
+  EXPECT_GT(shadows, 20);
 }
 
 /// Draws with white faces.
@@ -162,6 +217,36 @@ Solid plate(Op op, const std::vector<Box>& boxes) {
       make_polyhedron(Polyhedron::box({{-10, -10, -5}, {10, 10, 0}}))};
   for (const Box& box : boxes) primitives.push_back(make_polyhedron(Polyhedron::box(box)));
   return solid_of(test_support::scene_of(op, primitives));
+}
+
+TEST(PhongShadows, LeaveTheAmbientLight) {
+  const Solid solid = plate(Op::kUnion, {{{-3, -3, 0}, {3, 3, 8}}});
+  View view = from_above(solid.bounds());
+  view.width_px = view.height_px = 128;
+  FrameSettings frame;
+  frame.shading = Shading::kPhong;
+  frame.front = glm::vec3(0.5f);
+  Image unhindered;
+  TraceStats stats;
+  draw(solid, view, frame, {}, unhindered, stats);
+  Image half = unhindered, whole = unhindered;
+  cast_phong_shadows(solid, view, solid.bounds(), 0.5, {}, half, stats);
+  cast_phong_shadows(solid, view, solid.bounds(), 1, {}, whole, stats);
+  const SeenPoints seen = seen_of(solid, view);
+  const Vec3 light = phong_light(view, solid.bounds()).position_world;
+  const std::vector<uint8_t> found = lit_from(solid, seen, light);
+  int shadows = 0;
+  for (size_t point = 0, pixel = 0; pixel < whole.rgb.size(); ++pixel) {
+    if (unhindered.rgb[pixel] == unhindered.rgb.front()) continue;  // the background
+    const int before = unhindered.rgb[pixel][0];
+    const bool is_hidden = found[point] == 0;
+    const double ambient = 255 * 0.5 * kPhongAmbient;
+    EXPECT_NEAR(whole.rgb[pixel][0], is_hidden ? ambient : before, is_hidden ? 1 : 0);
+    EXPECT_NEAR(half.rgb[pixel][0], is_hidden ? (before + ambient) / 2 : before, is_hidden ? 1 : 0);
+    shadows += is_hidden && before > ambient + 1;
+    ++point;
+  }
+  EXPECT_GT(shadows, 20);
 }
 
 TEST(Studio, TakesNothingFromOpenFaces) {

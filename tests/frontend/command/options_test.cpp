@@ -471,8 +471,12 @@ TEST(Options, Studio) {
   EXPECT_EQ(parse_drawing({"--shading=studio", "--samples=1"}).render.samples, 1u);
   EXPECT_THAT(drawing_error({"--shading=studio", "--edges=1.1"}),
               HasSubstr("give a number from 0 to 1"));
+  EXPECT_EQ(parse_drawing({"--shading=phong"}).render.phong_shadows, 0);
+  const Options phong = parse_drawing({"--shading=phong", "--shadows=0.5"});
+  EXPECT_EQ(phong.render.phong_shadows, 0.5);
+  EXPECT_THAT(phong.warnings, IsEmpty());
   EXPECT_THAT(parse_drawing({"--shadows=0.5"}).warnings,
-              ElementsAre("--shadows has no effect without --shading=studio"));
+              ElementsAre("--shadows has no effect without --shading=studio or phong"));
 }
 
 TEST(Options, Numbers) {

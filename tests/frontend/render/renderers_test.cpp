@@ -154,6 +154,8 @@ TEST_F(Renderers, DrawTheSamePicture) {
   const std::vector<std::vector<std::string>> cases = {
       {},
       {"--shading=phong"},
+      {"--shading=phong", "--shadows=1"},
+      {"--shading=phong", "--shadows=0.5", "--samples=4"},
       {"--projection=o"},
       {"--camera=-6,-9,0,30,0,0,3"},  // inside the translucent part
       {"--camera=0,0,0,90,0,0,7"},    // inside the hole
@@ -216,6 +218,8 @@ TEST_F(Renderers, ShadeAsTheyAreTold) {
   for (const char* renderer : {"--renderer=cpu", "--renderer=gl"}) {
     const Image openscad = run({renderer, "--shading=openscad"}).image;
     const Image phong = run({renderer, "--shading=phong"}).image;
+    EXPECT_GT(different_pixels(phong, run({renderer, "--shading=phong", "--shadows=1"}).image),
+              100u);
     EXPECT_EQ(run({renderer}).image.rgb, openscad.rgb);
     EXPECT_GT(different_pixels(openscad, phong), 1000u) << renderer;
   }
