@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
 
 #include "cpu_methods.hpp"
+#include "csgcore/light_tracer.hpp"
 #include "support/full_run.hpp"
 #include "support/read_design.hpp"
 
@@ -12,6 +15,7 @@ namespace {
 
 using csgcore::Hits;
 using csgcore::Solid;
+using csgcore::Vec3;
 using stress::Case;
 using stress::Family;
 using stress::Line;
@@ -101,6 +105,103 @@ TEST_P(CpuStressTest, SamePictureByOneThreadAndByTwo) {
       SCOPED_TRACE(camera.name);
       expect_same_by_threads(solid, camera.view);
       expect_same_by_threads(subdivision, camera.view);
+    }
+  }
+}
+
+// --- Light ---
+
+/// The points that a picture shows from outside the solid.
+struct LitPoints {
+  LitPoints(const Hits& hits, const csgcore::View& view) : pixel_to_point(hits.s.size(), kNone) {
+    for (size_t pixel = 0; pixel < hits.s.size(); ++pixel) {
+      if (hits.primitive[pixel] == Hits::kMiss) continue;
+      const Vec3& at = hits.position[pixel];
+      const bool is_perspective = view.projection == csgcore::Projection::kPerspective;
+      const Vec3 ray = is_perspective ? at - view.eye : view.forward;
+      if (!(glm::dot(ray, hits.normal[pixel]) < 0)) continue;
+      pixel_to_point[pixel] = position.size();
+      position.push_back(at);
+      normal.push_back(hits.normal[pixel]);
+      primitive.push_back(hits.primitive[pixel]);
+    }
+  }
+  static constexpr size_t kNone = ~size_t{0};
+  std::vector<size_t> pixel_to_point;
+  std::vector<Vec3> position, normal;
+  std::vector<uint32_t> primitive;
+};
+
+/// How far a point is moved along its face, as a share of the way to the pixel beside it, to find
+/// whether its light is that of its surroundings; and the least cosine of light on it: more grazing
+/// light is hidden by the face's own roundness there.
+constexpr double kBeside = 1e-4;
+constexpr double kLeastCosine = 0.01;
+
+/// Returns how many points have another light than all points close around them.
+uint32_t count_light_speckle(const csgcore::LightTracer& tracer, const LitPoints& points,
+                             const csgcore::View& view, const Vec3& to_light) {
+  std::vector<uint8_t> lit(points.position.size());
+  tracer.find_lit({points.position, points.normal}, to_light, lit);
+  std::vector<Vec3> moved, normals;
+  std::vector<uint8_t> of_middle;
+  for (size_t pixel = 0; pixel < points.pixel_to_point.size(); ++pixel) {
+    const size_t point = points.pixel_to_point[pixel];
+    if (point == LitPoints::kNone) continue;
+    const Vec3& normal = points.normal[point];
+    if (glm::dot(normal, to_light) < kLeastCosine) continue;
+    const size_t x = pixel % view.width_px, y = pixel / view.width_px;
+    if (x == 0 || y == 0 || x + 1 == view.width_px || y + 1 == view.height_px) continue;
+    int others = 0;
+    double distance = std::numeric_limits<double>::infinity();
+    for (const size_t other :
+         {pixel - 1, pixel + 1, pixel - view.width_px, pixel + view.width_px}) {
+      const size_t beside = points.pixel_to_point[other];
+      if (beside == LitPoints::kNone || points.primitive[beside] != points.primitive[point]) {
+        continue;
+      }
+      others += lit[beside] != lit[point];
+      distance = std::min(distance, glm::length(points.position[beside] - points.position[point]));
+    }
+    if (others < 2) continue;
+    const Vec3 aside = std::abs(normal.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+    const Vec3 right = glm::normalize(glm::cross(normal, aside)), up = glm::cross(right, normal);
+    for (const Vec3& way : {right, -right, up, -up}) {
+      moved.push_back(points.position[point] + kBeside * distance * way);
+      normals.push_back(normal);
+      of_middle.push_back(lit[point]);
+    }
+  }
+  std::vector<uint8_t> beside(moved.size());
+  tracer.find_lit({moved, normals}, to_light, beside);
+  uint32_t speckle = 0;
+  for (size_t first = 0; first < moved.size(); first += 4) {
+    bool differs = true;
+    for (size_t i = first; i < first + 4; ++i) differs = differs && beside[i] != of_middle[i];
+    speckle += differs;
+  }
+  return speckle;
+}
+
+TEST_P(CpuStressTest, LightHasNoSpeckle) {
+  for (const Case* one : stress::cases_to_run(GetParam())) {
+    SCOPED_TRACE(one->name);
+    const csgcore::Scene scene = one->make();
+    const Solid solid(csgcore::canonical_primitives(scene), scene.model);
+    const csgcore::LightTracer tracer(solid);
+    for (const stress::Camera& camera : one->cameras(scene, stress::picture_size())) {
+      SCOPED_TRACE(camera.name);
+      Hits hits;
+      csgcore::TraceStats stats;
+      csgcore::trace(solid, camera.view, {}, hits, stats);
+      const LitPoints points(hits, camera.view);
+      const int directions = test_support::full_run() ? 64 : 4;
+      for (int i = 0; i < directions; ++i) {
+        const double z = 1 - (2.0 * i + 1) / directions, turn = 2.4 * i;
+        const double radius = std::sqrt(1 - z * z);
+        const Vec3 to_light(radius * std::cos(turn), radius * std::sin(turn), z);
+        EXPECT_EQ(count_light_speckle(tracer, points, camera.view, to_light), 0u) << i;
+      }
     }
   }
 }

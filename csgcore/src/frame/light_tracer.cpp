@@ -22,6 +22,16 @@ constexpr double kMostPixels = 4096;
 constexpr double kLeastWidth = 1e-6;
 constexpr double kLeastSize = 1e-9;
 
+/// Points far from the origin are rounded by some steps of a double there: this share of their
+/// coordinates.
+constexpr double kCoordinateSteps = 0x1p-50;
+
+/// Returns how far above a point, along its normal, crossings are of the point's own face.
+double own_face(const Box& bounds) {
+  const Vec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+  return 2 * thickness_tolerance(bounds) + kCoordinateSteps * std::max({reach.x, reach.y, reach.z});
+}
+
 /// Aims the view, whose forward is set.
 void set_axes(View& view) {
   const Vec3 aside = std::abs(view.forward.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
@@ -257,7 +267,7 @@ void LightTracer::look(const View& view, const SurfacePoints& points,
   parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());
   parameters.stop = stop;
   TileTracer tracer(solid_, frame, parameters, TileRules{.centers_only = false}, memory_->tiles);
-  Rays rays(frame, points, facing, 2 * parameters.thickness_tolerance, lit);
+  Rays rays(frame, points, facing, own_face(solid_.bounds()), lit);
   tracer.visit({0, 0, view.width_px, view.height_px}, rays);
 }
 
