@@ -133,9 +133,11 @@ struct LitPoints {
 };
 
 /// How far a point is moved along its face, as a share of the way to the pixel beside it, to find
-/// whether its light is that of its surroundings; and the least cosine of light on it: more grazing
+/// whether its light is that of its surroundings, and at least as a share of its coordinates, which
+/// are rounded; and the least cosine of light on it: more grazing
 /// light is hidden by the face's own roundness there.
 constexpr double kBeside = 1e-4;
+constexpr double kBesideRounded = 0x1p-48;
 constexpr double kLeastCosine = 0.01;
 
 /// Returns how many points have another light than all points close around them.
@@ -166,8 +168,10 @@ uint32_t count_light_speckle(const csgcore::LightTracer& tracer, const LitPoints
     if (others < 2) continue;
     const Vec3 aside = std::abs(normal.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
     const Vec3 right = glm::normalize(glm::cross(normal, aside)), up = glm::cross(right, normal);
+    const double step =
+        std::max(kBeside * distance, kBesideRounded * glm::length(points.position[point]));
     for (const Vec3& way : {right, -right, up, -up}) {
-      moved.push_back(points.position[point] + kBeside * distance * way);
+      moved.push_back(points.position[point] + step * way);
       normals.push_back(normal);
       of_middle.push_back(lit[point]);
     }

@@ -13,6 +13,7 @@
 
 #include "csgcore/geometry.hpp"
 #include "csgcore/solid.hpp"
+#include "csgcore/view.hpp"
 
 namespace csgcore {
 
