@@ -33,9 +33,9 @@ class LightTracer {
   /// Sets lit[i] to 1 if point i sees infinitely far along `to_light` (unit, world space), or else
   /// to 0. A point that faces away from the light is not lit. Crossings of the
   /// solid's boundary that lie less than two thickness tolerances above the point, along its
-  /// normal, or less than the rounding of its coordinates, are taken for the face that the point lies on: beyond that the answer is exact.
-  /// May be called by several threads at once. A stop request ends it early, with undefined
-  /// answers.
+  /// normal, or less than the rounding of its coordinates, are taken for the face that the point
+  /// lies on: beyond that the answer is exact. May be called by several threads at once. A stop
+  /// request ends it early, with undefined answers.
   void find_lit(const SurfacePoints& points, const Vec3& to_light, std::span<uint8_t> lit,
                 const std::stop_token& stop = {}) const;
 
