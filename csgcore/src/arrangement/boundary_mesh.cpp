@@ -8,6 +8,7 @@
 
 #include "arrangement/cell_tree.hpp"
 #include "arrangement/facet_grid.hpp"
+#include "arrangement/facet_trees.hpp"
 #include "arrangement/manifold_edges.hpp"
 #include "arrangement/merged_faces.hpp"
 #include "arrangement/pieces.hpp"
@@ -171,7 +172,8 @@ BoundaryMesh mesh_of_part(std::span<const TriangleSet> all, const SeparatePart& 
   const std::vector<bool> may_cross_itself = find_simple_surfaces(operands, facets);
   const bool is_simple = part.tokens.size() == 1 && !may_cross_itself[0] && facets.touches.empty();
   if (is_simple) return mesh_of_simple(facets);
-  const CellTree cells(facets, part.tokens, may_cross_itself);
+  const FacetTrees trees(facets, operands.size());
+  const CellTree cells(facets, trees, part.tokens, may_cross_itself);
   const Sheets sheets = sheets_of(facets, cells.pairs());
   const Pieces pieces(facets, cells, sheets);
   return BoundaryMaker(facets, may_cross_itself, cells, pieces).run();

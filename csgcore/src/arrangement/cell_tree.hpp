@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "arrangement/exact_center.hpp"
-#include "arrangement/facet_grid.hpp"
+#include "arrangement/facet_trees.hpp"
 #include "arrangement/tree_values.hpp"
 
 namespace csgcore {
@@ -25,7 +25,7 @@ struct KeptFace {
 class CellTree {
  public:
   /// Keeps references to all arguments.
-  CellTree(const Facets& facets, std::span<const CsgToken> tree,
+  CellTree(const Facets& facets, const FacetTrees& trees, std::span<const CsgToken> tree,
            const std::vector<bool>& may_cross_itself);
   ~CellTree();
   CellTree(const CellTree&) = delete;
@@ -53,6 +53,7 @@ class CellTree {
   class Builder;
 
   const Facets& facets_;
+  const FacetTrees& trees_;
   std::unique_ptr<Cell> root_;
   std::vector<Alone> alone_;
   std::vector<uint32_t> others_;

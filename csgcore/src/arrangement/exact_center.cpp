@@ -24,37 +24,48 @@ ExactCenter center_of(const std::array<const ArrangedPoint*, 3>& triangle) {
   return result;
 }
 
-}  // namespace
-
-WayPoint::WayPoint(const std::array<const ArrangedPoint*, 3>& triangle, const GridPoint& start)
-    : triangle_(triangle),
-      start_(start),
-      center_((triangle[0]->position + triangle[1]->position + triangle[2]->position) / 3.0),
-      position_(to_vec3(start)) {}
-
-void WayPoint::move(int axis) {
-  is_at_center_[static_cast<size_t>(axis)] = true;
-  position_[axis] = center_[axis];
-  has_exact_ = false;
+/// The sign of (n·δ) for the move δ.
+int side_of_moved(const GridPlane& plane) {
+  for (const Int128 x : plane.normal) {
+    if (x != 0) return sign_of(x);
+  }
+  return 0;
 }
 
-const ExactCenter& WayPoint::exact() const {
-  if (!has_center_) exact_center_ = center_of(triangle_);
-  has_center_ = true;
-  if (has_exact_) return exact_;
-  exact_ = exact_center_;
-  for (size_t i = 0; i < 3; ++i) {
-    if (!is_at_center_[i]) {
-      // The product has 41 + 740 bits.
-      const Wide<15> x = Wide<2>(Int128{start_[i]}) * exact_.w;
-      std::copy_n(x.limbs.begin(), 14, exact_.x[i].limbs.begin());
-    }
-  }
+/// The turn of two points and one on their line that is moved.
+int turn_of_moved(const GridPoint& a, const GridPoint& b, int axis) {
+  const auto u = static_cast<size_t>(u_axis(axis));
+  const auto v = static_cast<size_t>(v_axis(axis));
+  // The turn grows by du·δv − dv·δu.
+  const int by_v = sign_of(Int128{b[u] - a[u]});
+  const int by_u = -sign_of(Int128{b[v] - a[v]});
+  if (u < v) return by_u != 0 ? by_u : by_v;
+  return by_v != 0 ? by_v : by_u;
+}
+
+}  // namespace
+
+int MovedPoint::turn(const GridPoint& a, const GridPoint& b, int axis) const {
+  const int result = csgcore::turn(a, b, point_, axis);
+  return result != 0 ? result : turn_of_moved(a, b, axis);
+}
+
+int MovedPoint::side(const GridPlane& plane) const {
+  const int result = csgcore::side(plane, point_);
+  return result != 0 ? result : side_of_moved(plane);
+}
+
+MovedCenter::MovedCenter(const std::array<const ArrangedPoint*, 3>& triangle)
+    : triangle_(triangle),
+      position_((triangle[0]->position + triangle[1]->position + triangle[2]->position) / 3.0) {}
+
+const ExactCenter& MovedCenter::exact() const {
+  if (!has_exact_) exact_ = center_of(triangle_);
   has_exact_ = true;
   return exact_;
 }
 
-int WayPoint::turn(const GridPoint& a, const GridPoint& b, int axis) const {
+int MovedCenter::turn(const GridPoint& a, const GridPoint& b, int axis) const {
   const int u = u_axis(axis);
   const int v = v_axis(axis);
   const auto i = static_cast<size_t>(u);
@@ -75,7 +86,7 @@ int WayPoint::turn(const GridPoint& a, const GridPoint& b, int axis) const {
   return sum.sign() != 0 ? sum.sign() : turn_of_moved(a, b, axis);
 }
 
-int WayPoint::side(const GridPlane& plane) const {
+int MovedCenter::side(const GridPlane& plane) const {
   const Vec3 terms = plane.rounded_normal * (position_ - to_vec3(plane.point));
   const Vec3 sizes = glm::abs(terms);
   const Vec3 normal = glm::abs(plane.rounded_normal);
@@ -86,23 +97,6 @@ int WayPoint::side(const GridPlane& plane) const {
   Wide<16> sum = -Wide<16>(Wide<2>(plane.offset()) * exact().w);
   for (size_t i = 0; i < 3; ++i) sum = sum + Wide<2>(plane.normal[i]) * exact().x[i];
   return sum.sign() != 0 ? sum.sign() : side_of_moved(plane);
-}
-
-int side_of_moved(const GridPlane& plane) {
-  for (const Int128 x : plane.normal) {
-    if (x != 0) return sign_of(x);
-  }
-  return 0;
-}
-
-int turn_of_moved(const GridPoint& a, const GridPoint& b, int axis) {
-  const auto u = static_cast<size_t>(u_axis(axis));
-  const auto v = static_cast<size_t>(v_axis(axis));
-  // The turn grows by du·δv − dv·δu.
-  const int by_v = sign_of(Int128{b[u] - a[u]});
-  const int by_u = -sign_of(Int128{b[v] - a[v]});
-  if (u < v) return by_u != 0 ? by_u : by_v;
-  return by_v != 0 ? by_v : by_u;
 }
 
 }  // namespace csgcore

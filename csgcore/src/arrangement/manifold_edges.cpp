@@ -1,7 +1,5 @@
 #include "arrangement/manifold_edges.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,6 +8,7 @@
 
 #include "arrangement/disjoint_sets.hpp"
 #include "arrangement/facet_grid.hpp"
+#include "arrangement/sorted_by_key.hpp"
 
 namespace csgcore {
 namespace {
@@ -70,7 +69,7 @@ class Parting {
         edges.push_back({std::min(from, to), std::max(from, to), i, j});
       }
     }
-    tbb::parallel_sort(edges.begin(), edges.end());
+    sort_by_key(edges, mesh_.vertices.size(), [](const HalfEdge& edge) { return edge.low; });
     return edges;
   }
 

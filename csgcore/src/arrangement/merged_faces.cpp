@@ -1,7 +1,6 @@
 #include "arrangement/merged_faces.hpp"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "arrangement/disjoint_sets.hpp"
 #include "arrangement/planar_subdivision.hpp"
+#include "arrangement/sorted_by_key.hpp"
 #include "csgcore/stop_scope.hpp"
 
 namespace csgcore {
@@ -23,6 +23,9 @@ struct FaceEdge {
   uint32_t piece;  // a place among the kept ones
 
   std::pair<uint32_t, uint32_t> ends() const { return std::minmax(from, to); }
+  bool operator<(const FaceEdge& other) const {
+    return std::pair(ends(), piece) < std::pair(other.ends(), other.piece);
+  }
 };
 
 /// What meets in a point: the edges between faces.
@@ -86,7 +89,12 @@ class FaceMerger {
 
  private:
   const Piece& piece(uint32_t i) const { return pieces_.all()[kept_[i].piece]; }
-  bool is_merged(uint32_t i) const { return pieces_.is_compared(kept_[i].piece); }
+  /// A facet that has no corner in a sheet is as far from what is divided as one that is alone.
+  bool is_merged(uint32_t i) const {
+    return pieces_.is_compared(kept_[i].piece) &&
+           std::ranges::any_of(kept_[i].triangle.points,
+                               [&](uint32_t point) { return pieces_.is_in_sheet(point); });
+  }
 
   bool are_one_face(uint32_t a, uint32_t b) const {
     if (kept_[a].triangle.operand != kept_[b].triangle.operand) return false;
@@ -101,9 +109,7 @@ class FaceMerger {
       const auto& points = kept_[i].triangle.points;
       for (size_t j = 0; j < 3; ++j) all.push_back({points[j], points[(j + 1) % 3], i});
     }
-    tbb::parallel_sort(all.begin(), all.end(), [](const FaceEdge& a, const FaceEdge& b) {
-      return std::pair(a.ends(), a.piece) < std::pair(b.ends(), b.piece);
-    });
+    sort_by_key(all, pieces_.point_count(), [](const FaceEdge& edge) { return edge.ends().first; });
     for (size_t begin = 0; begin < all.size();) {
       size_t end = begin + 1;
       while (end < all.size() && all[end].ends() == all[begin].ends()) ++end;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "arrangement/disjoint_sets.hpp"
+#include "arrangement/sorted_by_key.hpp"
 
 namespace csgcore {
 namespace {
@@ -142,7 +143,7 @@ void Pieces::find_patches(const CellTree& cells) {
       sides.push_back({a, b, i});
     }
   }
-  tbb::parallel_sort(sides.begin(), sides.end());
+  sort_by_key(sides, point_count(), [](const SideOfPiece& side) { return side.a; });
   const auto have_same_operands = [&](const Piece& p, const Piece& q) {
     const auto of_p = facets(p);
     const auto of_q = facets(q);

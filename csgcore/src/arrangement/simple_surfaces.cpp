@@ -3,22 +3,49 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "csgcore/stop_scope.hpp"
 
 namespace csgcore {
 namespace {
 
-struct EdgeOfFacet {
-  uint32_t low;  // its ends
-  uint32_t high;
-  uint32_t facet;
-  uint32_t apex;   // the facet's other corner
-  bool is_rising;  // from low to high
-  auto operator<=>(const EdgeOfFacet&) const = default;
+/// Finds the edges of facets by their ends, in the order in which the facet runs through them.
+class EdgeTable {
+ public:
+  explicit EdgeTable(std::span<const Facet> surface)
+      : surface_(surface), slots_(std::bit_ceil(8 * surface.size()), kNoPlace) {}
+
+  /// Adds the facet's edge from one corner to the next. Returns whether it is new.
+  bool add(uint32_t facet, size_t corner) {
+    const auto& corners = surface_[facet].corners;
+    uint32_t& slot = slots_[slot_of(corners[corner], corners[(corner + 1) % 3])];
+    if (slot != kNoPlace) return false;
+    slot = static_cast<uint32_t>(3 * facet + corner);
+    return true;
+  }
+  /// Returns three times the edge's facet, and the corner where it starts; kNoPlace: there is none.
+  uint32_t find(uint32_t from, uint32_t to) const { return slots_[slot_of(from, to)]; }
+
+ private:
+  size_t slot_of(uint32_t from, uint32_t to) const {
+    // Edges of one corner stand together, as those of its neighbours do, unless they are many.
+    constexpr size_t kTogether = 8;
+    const uint64_t hash = (uint64_t{from} << 32 | to) * 0x9e3779b97f4a7c15u;
+    size_t slot = kTogether * from + (hash >> 61);
+    for (size_t tries = 0;; ++tries, ++slot) {
+      if (tries == kTogether) slot = hash >> 29;
+      slot &= slots_.size() - 1;
+      if (slots_[slot] == kNoPlace) return slot;
+      const auto& corners = surface_[slots_[slot] / 3].corners;
+      const size_t corner = slots_[slot] % 3;
+      if (corners[corner] == from && corners[(corner + 1) % 3] == to) return slot;
+    }
+  }
+
+  std::span<const Facet> surface_;
+  std::vector<uint32_t> slots_;
 };
 
 /// Returns six times the volume that the facets enclose, rounded.
@@ -40,94 +67,59 @@ double volume_of(const Facets& facets, std::span<const Facet> surface) {
 /// of the four points by less than a unit of the grid.
 constexpr double kFlat = 4;
 
-/// Returns whether the facets around each corner wind once around the sum of their normals.
-/// `corners` are all of them, in rising order.
-bool wind_once(const Facets& facets, std::span<const Facet> surface,
-               std::span<const uint32_t> corners) {
-  const auto place_of = [&](uint32_t corner) {
-    return static_cast<size_t>(std::ranges::lower_bound(corners, corner) - corners.begin());
-  };
-  struct Around {
-    Vec3 normal{0.0};
-    double angle = 0;
-  };
-  std::vector<Around> around(corners.size());
+/// Returns whether the facets are, but for rounding, the boundary of a convex solid. All face away
+/// from a middle, or towards it, and seen from there one of them alone lies behind the centre of
+/// the largest: since each edge has two of them, which run through it in opposite directions, one
+/// lies in every direction. Everywhere they bend towards the middle.
+bool is_convex(const Facets& facets, std::span<const Facet> surface) {
   const auto corner = [&](const Facet& facet, size_t i) {
     return to_vec3(facets.points[facet.corners[i % 3]]);
   };
+  Vec3 middle(0.0);
   for (const Facet& facet : surface) {
-    const Vec3 area =
-        glm::cross(corner(facet, 1) - corner(facet, 0), corner(facet, 2) - corner(facet, 0));
-    for (const uint32_t place : facet.corners)
-      around[place_of(place)].normal += glm::normalize(area);
+    middle += corner(facet, 0) + corner(facet, 1) + corner(facet, 2);
   }
-  for (const Facet& facet : surface) {
-    for (size_t i = 0; i < 3; ++i) {
-      Around& at = around[place_of(facet.corners[i])];
-      const Vec3 axis = glm::normalize(at.normal);
-      const Vec3 p = corner(facet, i + 1) - corner(facet, i);
-      const Vec3 q = corner(facet, i + 2) - corner(facet, i);
-      at.angle += std::atan2(glm::dot(axis, glm::cross(p, q)),
-                             glm::dot(p, q) - glm::dot(axis, p) * glm::dot(axis, q));
-    }
-  }
-  return std::ranges::all_of(
-      around, [](const Around& at) { return std::abs(at.angle - 2 * std::numbers::pi) < 1; });
-}
-
-/// Returns whether the facets are, but for rounding, the boundary of a convex solid. At each edge
-/// two of them meet, and bend towards the same side everywhere; by Euler's formula they are one
-/// sphere. A closed surface that is convex near each of its points bounds a convex solid (van
-/// Heijenoort, "On locally convex manifolds", 1952).
-bool is_convex(const Facets& facets, std::span<const Facet> surface) {
-  std::vector<EdgeOfFacet> edges;
-  edges.reserve(3 * surface.size());
-  std::vector<uint32_t> corners;
+  middle /= 3 * static_cast<double>(surface.size());
+  EdgeTable edges(surface);
+  std::vector<Vec3> normals;  // of length 1, towards the middle
+  normals.reserve(surface.size());
+  size_t largest = 0;
+  double largest_area = 0;
+  int facing = 0;
   for (uint32_t i = 0; i < surface.size(); ++i) {
+    const auto& [a, b, c] = surface[i].corners;
+    const Vec3 normal =
+        plane_through(facets.points[a], facets.points[b], facets.points[c]).rounded_normal;
+    const double area = glm::length(normal);
+    const double height = glm::dot(normal, middle - corner(surface[i], 0));
+    if (facing == 0) facing = sign_of(height);
+    if (!(height * facing > kFlat * area)) return false;
+    normals.push_back(normal * (facing / area));
+    if (area > largest_area) largest = i;
+    largest_area = std::max(area, largest_area);
     for (size_t j = 0; j < 3; ++j) {
-      const uint32_t a = surface[i].corners[j];
-      const uint32_t b = surface[i].corners[(j + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), i, surface[i].corners[(j + 2) % 3], a < b});
-      corners.push_back(a);
+      if (!edges.add(i, j)) return false;
     }
   }
-  if (edges.size() % 2 != 0) return false;
-  std::ranges::sort(corners);
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  if (corners.size() + surface.size() != edges.size() / 2 + 2) return false;
-  std::ranges::sort(edges);
-  const auto plane_of = [&](uint32_t facet) {
-    const auto& [a, b, c] = surface[facet].corners;
-    return plane_through(facets.points[a], facets.points[b], facets.points[c]);
-  };
-  int bend = 0;
-  for (size_t i = 0; i < edges.size(); i += 2) {
-    const EdgeOfFacet& edge = edges[i];
-    const EdgeOfFacet& other = edges[i + 1];
-    if (edge.low != other.low || edge.high != other.high || edge.is_rising == other.is_rising) {
-      return false;
+  const Facet& first = surface[largest];
+  const Vec3 direction =
+      glm::normalize(corner(first, 0) + corner(first, 1) + corner(first, 2) - 3.0 * middle);
+  constexpr double kRounding = 0x1p-40;  // of a sine: more than that of sums and products
+  for (uint32_t i = 0; i < surface.size(); ++i) {
+    bool lies_there = i != largest;
+    for (size_t j = 0; j < 3; ++j) {
+      const Vec3 from = corner(surface[i], j) - middle;
+      const Vec3 to = corner(surface[i], j + 1) - middle;
+      const double turn = -facing * glm::dot(glm::cross(from, to), direction);
+      if (turn < -kRounding * glm::length(from) * glm::length(to)) lies_there = false;
+      const uint32_t other = edges.find(surface[i].corners[(j + 1) % 3], surface[i].corners[j]);
+      if (other == kNoPlace) return false;
+      const Vec3 apex = corner(surface[other / 3], other % 3 + 2);
+      if (glm::dot(normals[i], apex - corner(surface[i], 0)) < -kFlat) return false;
     }
-    if (i + 2 < edges.size() && edges[i + 2].low == edge.low && edges[i + 2].high == edge.high) {
-      return false;
-    }
-    const GridPlane plane = plane_of(edge.facet);
-    const Vec3 to_apex = to_vec3(facets.points[other.apex]) - to_vec3(plane.point);
-    const double height = glm::dot(plane.rounded_normal, to_apex);
-    const int next = sign_of(height);
-    if (std::abs(height) < kFlat * glm::length(plane.rounded_normal)) {
-      // Facets of one plane lie on different sides of their edge.
-      const auto turn_of = [&](uint32_t apex) {
-        return turn(facets.points[edge.low], facets.points[edge.high], facets.points[apex],
-                    plane.axis());
-      };
-      if (turn_of(edge.apex) == turn_of(other.apex)) return false;
-    } else if (bend == 0) {
-      bend = next;
-    } else if (bend != next) {
-      return false;
-    }
+    if (lies_there) return false;
   }
-  return bend != 0 && wind_once(facets, surface, corners);
+  return true;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <random>
 #include <stop_token>
 
+#include "arrangement/needed_facets.hpp"
 #include "arrangement/separate_parts.hpp"
 #include "base/worker_threads.hpp"
 #include "csgcore/facets.hpp"
@@ -66,13 +67,18 @@ BoundaryMesh sound_mesh(const std::vector<MeshParts>& operands, const CsgTree& t
   return mesh;
 }
 
-/// Applies one operation to all operands.
-BoundaryMesh sound_mesh(Op op, const std::vector<MeshParts>& operands, double input_rounding = 0) {
+/// One operation on all operands.
+CsgTree flat_tree(Op op, uint32_t operands) {
   CsgTreeBuilder builder;
   builder.open(op);
-  for (uint32_t i = 0; i < operands.size(); ++i) builder.primitive(i);
+  for (uint32_t i = 0; i < operands; ++i) builder.primitive(i);
   builder.close();
-  return sound_mesh(operands, builder.finish(), input_rounding);
+  return builder.finish();
+}
+
+/// Makes the mesh of it.
+BoundaryMesh sound_mesh(Op op, const std::vector<MeshParts>& operands, double input_rounding = 0) {
+  return sound_mesh(operands, flat_tree(op, uint32_t(operands.size())), input_rounding);
 }
 
 MeshParts box(const Vec3& min, const Vec3& size) { return box_parts(min, min + size); }
@@ -343,6 +349,55 @@ TEST(SeparateParts, HaveTheBoxOfWhatIsNotSubtracted) {
   EXPECT_EQ(parts[1].tokens[0].value, 1u);
   EXPECT_EQ(parts[1].tokens[1].value, 0u);
   EXPECT_EQ(parts[1].tokens[2].op, Op::kIntersection);
+}
+
+/// Returns how many facets of each operand are needed.
+std::vector<size_t> needed_of(const std::vector<MeshParts>& operands, const CsgTree& tree) {
+  const std::vector<TriangleSet> surfaces = surfaces_of(operands);
+  std::vector<const TriangleSet*> pointers;
+  for (const TriangleSet& surface : surfaces) pointers.push_back(&surface);
+  csgcore::Facets facets = csgcore::facets_on_grid(pointers);
+  const csgcore::FacetTrees trees(facets, operands.size());
+  std::vector<size_t> result(operands.size(), 0);
+  for (const uint32_t facet : csgcore::needed_facets(facets, trees, tree.tokens())) {
+    ++result[facets.facets[facet].operand];
+  }
+  return result;
+}
+
+TEST(NeededFacets, AreThoseThatNoOtherOperandDecides) {
+  using testing::ElementsAre;
+  // A cube; a ball whose half is outside; one within that ball; one away from the cube.
+  const std::vector<MeshParts> parts{cube(Vec3(-5), 10),
+                                     test_support::icosphere_parts(3, 3).moved({5, 0.1, 0.2}),
+                                     test_support::icosphere_parts(1, 1).moved({4, 0.1, 0.2}),
+                                     test_support::icosphere_parts(1, 1).moved({9, 0.1, 0.2})};
+  const size_t all = parts[1].triangles.size();
+  const std::vector<size_t> minus = needed_of(parts, flat_tree(Op::kDifference, 4));
+  EXPECT_THAT(
+      minus,
+      ElementsAre(12u, testing::AllOf(testing::Gt(all / 2), testing::Lt(all * 2 / 3)), 0u, 0u));
+  const std::vector<size_t> together = needed_of(parts, flat_tree(Op::kUnion, 4));
+  EXPECT_EQ(together[1], minus[1]);
+  EXPECT_EQ(together[2], 0u);
+  EXPECT_EQ(together[3], parts[3].triangles.size());
+  EXPECT_THAT(needed_of(parts, flat_tree(Op::kIntersection, 4)), ElementsAre(0u, 0u, 0u, 0u));
+}
+
+TEST(NeededFacets, AreThoseOfOperandsThatTheTreeHasTwice) {
+  // What is within the ball that is subtracted is added, too.
+  CsgTreeBuilder builder;
+  builder.open(Op::kUnion);
+  builder.primitive(2);
+  builder.open(Op::kDifference);
+  builder.primitive(0);
+  builder.primitive(1);
+  builder.primitive(2);
+  builder.close();
+  builder.close();
+  const BoundaryMesh mesh =
+      sound_mesh({cube(Vec3(-5), 10), cube(Vec3(-3), 6), cube(Vec3(-1), 2)}, builder.finish());
+  EXPECT_EQ(double(test_support::volume_of(mesh)), 1000 - 216 + 8);
 }
 
 TEST(BoundaryMesh, SubtractsAllFurtherOperands) {
