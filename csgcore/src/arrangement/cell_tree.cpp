@@ -241,18 +241,28 @@ class CellTree::Builder {
   }
 
   /// Returns the pairs whose boxes meet, of different operands or of one that may cross itself.
-  std::vector<std::pair<uint32_t, uint32_t>> pairs_of(std::vector<uint32_t> places) const {
+  std::vector<std::pair<uint32_t, uint32_t>> pairs_of(const std::vector<uint32_t>& places) const {
+    struct Boxed {
+      FacetBox box;
+      uint32_t place;
+      uint32_t operand;  // kNoPlace if it may cross itself: it is compared with all
+    };
     std::vector<std::pair<uint32_t, uint32_t>> pairs;
-    std::ranges::sort(places, {}, [&](uint32_t place) { return box_of(place).min[0]; });
-    for (size_t i = 0; i < places.size(); ++i) {
-      const FacetBox& box = box_of(places[i]);
-      const uint32_t operand = operand_of(places[i]);
-      for (size_t j = i + 1; j < places.size(); ++j) {
-        const FacetBox& other = box_of(places[j]);
-        if (other.min[0] > box.max[0]) break;
-        if (!box.meets(other)) continue;
-        if (operand == operand_of(places[j]) && !may_cross_itself_[operand]) continue;
-        pairs.push_back(std::minmax(places[i], places[j]));
+    const uint32_t first = operand_of(places.front());
+    if (operand_of(places.back()) == first && !may_cross_itself_[first]) return pairs;
+    std::vector<Boxed> boxed;
+    boxed.reserve(places.size());
+    for (const uint32_t place : places) {
+      const uint32_t operand = operand_of(place);
+      boxed.push_back({box_of(place), place, may_cross_itself_[operand] ? kNoPlace : operand});
+    }
+    std::ranges::sort(boxed, {}, [](const Boxed& item) { return item.box.min[0]; });
+    for (size_t i = 0; i < boxed.size(); ++i) {
+      const Boxed& item = boxed[i];
+      for (size_t j = i + 1; j < boxed.size() && boxed[j].box.min[0] <= item.box.max[0]; ++j) {
+        const Boxed& other = boxed[j];
+        if (item.operand == other.operand && item.operand != kNoPlace) continue;
+        if (item.box.meets(other.box)) pairs.push_back(std::minmax(item.place, other.place));
       }
     }
     return pairs;

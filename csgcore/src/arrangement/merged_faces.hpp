@@ -19,8 +19,8 @@ struct KeptPiece {
   FaceTriangle triangle;
 };
 
-/// Returns the triangles of kept pieces. Compared ones that lie in one plane and show one operand
-/// become one face, which has no points along its edges but where other faces end.
+/// Returns the triangles of kept pieces. Compared ones near sheets that lie in one plane and show
+/// one operand become one face, which has no points along its edges but where other faces end.
 std::vector<FaceTriangle> merged_faces(const Pieces& pieces, const std::vector<KeptPiece>& kept);
 
 }  // namespace csgcore
