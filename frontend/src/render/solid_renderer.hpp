@@ -92,8 +92,8 @@ class SolidRenderer {
 /// Returns the drawing by the CPU tracer, csgcore/tracer.hpp.
 std::unique_ptr<SolidRenderer> make_cpu_renderer();
 
-/// Takes away the light that the solid hides from itself (draws_shadows()), by the CPU, in a picture
-/// of one ray a pixel by either renderer. `light_box`: of all that the picture shows.
+/// Takes away the light that the solid hides from itself (draws_shadows()), by the CPU, in a
+/// picture of one ray a pixel by either renderer. `light_box`: of all that the picture shows.
 void draw_shadows(const csgcore::Solid& solid, const csgcore::Box& light_box,
                   const PictureRequest& request, csgcore::Image& image);
 
