@@ -19,11 +19,11 @@ struct FacetBox {
   std::array<float, 3> max;
 
   bool meets(const FacetBox& other) const {
-    bool result = true;
+    int apart = 0;  // without a branch for each side
     for (size_t i = 0; i < 3; ++i) {
-      result = result & (min[i] <= other.max[i]) & (max[i] >= other.min[i]);
+      apart |= static_cast<int>(min[i] > other.max[i]) | static_cast<int>(max[i] < other.min[i]);
     }
-    return result;
+    return apart == 0;
   }
   void merge(const FacetBox& other) {
     for (size_t i = 0; i < 3; ++i) {
