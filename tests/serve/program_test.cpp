@@ -185,10 +185,12 @@ TEST(ServeProgram, HasACommandLine) {
   EXPECT_EQ(run("--language=7"), 1);
   folder.write("a.scad", "cube(1);");
   const std::string design = " '" + (folder / "a.scad") + "'";
+  const TemporaryFolder panel;
+  panel.write("index.html", "");
   for (const auto& [words, error] : std::vector<std::pair<std::string, std::string>>{
            {"--http", "--http shows one design"},
            {"--http=8080" + design + design, "--http shows one design"},
-           {"--http none.stl", "none.stl"},
+           {"--http --panel=" + panel.path() + " none.stl", "none.stl"},
            {"--http=99999" + design, "--http"},
            {"--bind=127.0.0.1", "--bind has no effect without --http"},
            {"--http --panel=/none" + design, "holds no panel for browsers"}}) {
