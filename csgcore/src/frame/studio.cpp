@@ -264,7 +264,8 @@ class Studio {
     });
     const uint32_t bands = (static_cast<uint32_t>(rows_.size()) + kBandRows - 1) / kBandRows;
     for (const uint32_t first : {0u, 1u}) {
-      tbb::parallel_for(first, bands, 2u, [&](uint32_t band) {
+      tbb::parallel_for(0u, (bands + 1 - first) / 2, [&](uint32_t pair) {
+        const uint32_t band = 2 * pair + first;
         const size_t end = std::min(size_t{band + 1} * kBandRows, rows_.size());
         for (size_t y = size_t{band} * kBandRows; y < end; ++y) {
           for (uint32_t i = 0; i < rows_[y].size(); ++i) {
