@@ -149,7 +149,7 @@ TEST(ShaderTest, EveryVariantIsGlslByTheReferenceCompiler) {
   const frontend::TemporaryFolder folder;
   std::string files;
   for (ProgramKey key : variants(find_roles())) {
-    // Of the extensions it knows the one not at all, and the other in part.
+    // glslangValidator lacks GL_ARB_conservative_depth, and `precise` in GL_ARB_gpu_shader5.
     key.conservative_depth = false;
     ProgramSources sources = program_sources(key);
     const std::regex gpu_shader5("GL_ARB_gpu_shader5");

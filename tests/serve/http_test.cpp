@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <charconv>
-#include <fstream>
 #include <random>
 #include <thread>
 
@@ -10,6 +9,7 @@
 #include "frontend/error.hpp"
 #include "http_server.hpp"
 #include "protocol.hpp"
+#include "resident_bytes.hpp"
 #include "support/full_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -374,14 +374,6 @@ TEST_F(HttpTest, RefusesLongMessages) {
   client.connection().send(client_frame(std::string((1 << 20) + 1, ' ')));
   EXPECT_FALSE(client.receive());
   expect_service();
-}
-
-/// Returns the memory that this process has taken, in bytes.
-std::size_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::size_t all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * 4096;
 }
 
 TEST_F(HttpTest, AClientThatReadsNothingCostsLittle) {

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "client.hpp"
+#include "resident_bytes.hpp"
 #include "support/full_run.hpp"
 
 namespace serve {
@@ -671,14 +672,6 @@ TEST(Preview, DoesNothingAtRest) {
     after = waits();
   }
   EXPECT_EQ(after - before, 1);
-}
-
-/// Returns the memory that this process has taken, in bytes.
-std::size_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::size_t all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * 4096;
 }
 
 TEST(Preview, GivesItsMemoryBackWhenItIsClosed) {
