@@ -51,7 +51,7 @@ using DesignMessageSink = std::function<void(const DesignMessage&)>;
 struct ReadingOptions {
   ImportOptions import{};
   std::vector<std::string> openscad_arguments{};  // OpenSCAD's, for the evaluation of a .scad
-  Evaluator evaluator = Evaluator::kOpenScad;
+  Evaluator evaluator = kDefaultEvaluator;
 };
 
 struct DesignFileOptions : ReadingOptions {

@@ -56,8 +56,6 @@ struct GivenLook {
 
 /// The whole command line, checked: every value is in its documented range.
 struct Options : ReadingOptions {
-  Options() { evaluator = kDefaultEvaluator; }
-
   Action action = Action::kDraw;
   std::string input;                        // "-": standard input
   std::vector<std::string> further_inputs;  // kOpenWindow: each of them gets a window of its own

@@ -22,6 +22,7 @@ constexpr std::chrono::seconds kPatience{60};
 /// Follows by inotify, without looking at the files at short intervals.
 inline FollowOptions by_inotify() {
   FollowOptions options;
+  options.evaluator = Evaluator::kOpenScad;
   options.poll_interval = std::chrono::hours(1);
   return options;
 }
@@ -29,6 +30,7 @@ inline FollowOptions by_inotify() {
 /// Follows without inotify.
 inline FollowOptions by_polling() {
   FollowOptions options;
+  options.evaluator = Evaluator::kOpenScad;
   options.polls = true;
   options.poll_interval = std::chrono::milliseconds(2);
   return options;

@@ -76,6 +76,7 @@ TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'"));
   const std::string path = folder_.write("a.scad", "");
   DesignFileOptions options;
+  options.evaluator = Evaluator::kOpenScad;
   options.wants_files = true;
   options.message = [](const std::string&) {};
   options.progress = [](const char*) {};
@@ -92,6 +93,7 @@ TEST(DesignFile, ThatTakesTooMuchMemoryIsNamed) {
   const TemporaryFolder folder;
   const std::string path = folder.write("a.csg", "sphere(r = 1);");
   DesignFileOptions options;
+  options.evaluator = Evaluator::kOpenScad;
   options.progress = [](const char*) { throw std::bad_alloc(); };
   try {
     read_design(path, options);
