@@ -10,14 +10,16 @@
 
 namespace csgcore {
 
+/// What StudioSettings::directions is a multiple of.
+constexpr uint32_t kLeastDirections = 64;
+
 /// What finish_studio() does.
 struct StudioSettings {
   // How much each of these shows, from 0, not at all, to 1.
   double shadows = 1;    // of the key light
   double occlusion = 1;  // of what comes from all around
   double edges = 1;      // lines where faces meet or end
-  /// The directions of the whole sky that are asked: a multiple of 64. A quarter as many go to the
-  /// key light.
+  /// The directions of the whole sky that are asked. A quarter as many go to the key light.
   uint32_t directions = 256;
   /// Whether neighbouring pixels ask parts of them for each other, where the same face goes on:
   /// faster, but light is smoothed over 5 × 5 blocks.

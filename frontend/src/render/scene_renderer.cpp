@@ -217,6 +217,9 @@ class SceneRenderer::Impl {
                RenderSettings settings) {
     settings.stop = {};
     settings.progress = {};
+    // The CPU adds the studio's light, which needs no shader: as little of it as can be asked for.
+    settings.studio.directions = csgcore::kLeastDirections;
+    settings.studio.shares_light = true;
     if (renderer) renderer->leave_thread();
     warming_ = std::async(std::launch::async, warmed, std::move(renderer), demands_of(settings),
                           source_, view, settings);
