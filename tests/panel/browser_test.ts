@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import type { Browser, BrowserContextOptions, CDPSession, Page, WebSocketRoute } from 'playwright-core';
-import { Panel, launch } from './support/browser';
+import type { Browser, CDPSession, Page, WebSocketRoute } from 'playwright-core';
+import { Panel, type PanelOptions, launch } from './support/browser';
 
 let browser: Browser;
 before(async () => (browser = await launch()));
@@ -30,10 +30,10 @@ if (lid) translate([0, 0, height]) color("tomato") cube([width, width, 2], cente
 function panelTest(
   name: string,
   run: (panel: Panel, page: Page) => Promise<void>,
-  { text = box, ...options }: BrowserContextOptions & { text?: string; before?: (page: Page) => Promise<void> } = {},
+  { text = box, ...options }: PanelOptions & { text?: string } = {},
 ): void {
   test(name, { timeout: 60_000 }, async () => {
-    const panel = await Panel.open(browser, { text }, options);
+    const panel = await Panel.open(browser, { text }, { shading: 'flat', ...options });
     try {
       await run(panel, panel.page);
       await panel.screenshot(name.replace(/[^a-z0-9]+/gi, '_'));
@@ -51,7 +51,7 @@ panelTest('opens and follows each save', async (panel) => {
   await panel.frame({ number: first.number, version: first.version + 1 });
   assert.notEqual(await panel.pixels(), before);
   assert.match(await panel.text('.status'), /600 × 450, \d+(\.\d)? ms/);
-});
+}, { shading: 'studio' });
 
 panelTest('the mouse turns, pans and zooms', async (panel, page) => {
   let shown = await panel.frame();

@@ -2,6 +2,7 @@
 // place programs of the test run.
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -117,8 +118,9 @@ TEST_F(FakeOpenScad, TheEndDuringAnExportLeavesNoProcess) {
 TEST_F(FakeOpenScad, AnInterruptionLeavesNoProcess) {
   const pid_t pid = fork();
   if (pid == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nobody who keeps CTest waiting
     handle_interrupts();
-    const DesignFollower design(path_, {}, [] {});
+    const DesignFollower design(path_, by_inotify(), [] {});
     while (true) pause();
   }
   wait_until_slow();

@@ -4,6 +4,7 @@ import { mkdtempSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
+import { pathToFileURL } from 'node:url';
 import { type Browser, type BrowserContextOptions, type Page, chromium } from 'playwright-core';
 import { program } from './stdio_client';
 
@@ -13,6 +14,12 @@ const pictures = process.env['SCADRAY_PICTURES']!;
 export function launch(): Promise<Browser> {
   const executablePath = process.env['SCADRAY_CHROMIUM'] ?? '/usr/bin/chromium';
   return chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-gpu'] });
+}
+
+export interface PanelOptions extends BrowserContextOptions {
+  /** As if the page had been left so. The studio's last picture takes long. */
+  shading?: 'studio' | 'flat';
+  before?: (page: Page) => Promise<void>;
 }
 
 export interface Shown {
@@ -39,7 +46,7 @@ export class Panel {
   static async open(
     browser: Browser,
     design: { text: string } | { file: string },
-    options: BrowserContextOptions & { before?: (page: Page) => Promise<void> } = {},
+    { shading, before, ...options }: PanelOptions = {},
   ): Promise<Panel> {
     const folder = mkdtempSync(join(tmpdir(), 'scadray-'));
     const file = 'file' in design ? design.file : join(folder, 'design.scad');
@@ -57,7 +64,13 @@ export class Panel {
     const context = await browser.newContext({ viewport: { width: 600, height: 450 }, ...options });
     const page = await context.newPage();
     const shown = new Panel(page, folder, server);
-    await options.before?.(page);
+    if (shading) {
+      const kept = [`scadray ${pathToFileURL(file).href}`, JSON.stringify({ look: { shading } })] as const;
+      await page.addInitScript(([key, value]) => {
+        if (!sessionStorage.getItem(key)) sessionStorage.setItem(key, value);
+      }, kept);
+    }
+    await before?.(page);
     await page.goto(address);
     return shown;
   }
