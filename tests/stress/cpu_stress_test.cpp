@@ -171,17 +171,21 @@ uint32_t count_light_speckle(const csgcore::LightTracer& tracer, const LitPoints
     const double step =
         std::max(kBeside * distance, kBesideRounded * glm::length(points.position[point]));
     for (const Vec3& way : {right, -right, up, -up}) {
-      moved.push_back(points.position[point] + step * way);
-      normals.push_back(normal);
-      of_middle.push_back(lit[point]);
+      for (const double lift :
+           {0.0, 1.0}) {  // in a valley of a mesh, its faces' planes are covered
+        moved.push_back(points.position[point] + step * (way + lift * normal));
+        normals.push_back(normal);
+        of_middle.push_back(lit[point]);
+      }
     }
   }
   std::vector<uint8_t> beside(moved.size());
   tracer.find_lit({moved, normals}, to_light, beside);
   uint32_t speckle = 0;
-  for (size_t first = 0; first < moved.size(); first += 4) {
+  constexpr size_t kAround = 8;
+  for (size_t first = 0; first < moved.size(); first += kAround) {
     bool differs = true;
-    for (size_t i = first; i < first + 4; ++i) differs = differs && beside[i] != of_middle[i];
+    for (size_t i = first; i < first + kAround; ++i) differs = differs && beside[i] != of_middle[i];
     speckle += differs;
   }
   return speckle;
