@@ -145,9 +145,11 @@ class CurveCrosser {
             weight};
   }
 
-  /// A range of a curve's parameters, and on which sides of the path its ends lie.
+  /// A range of a curve's parameters, the curve's points at its ends, and on which sides of the
+  /// path these lie.
   struct Range {
     double from, to;
+    Polar start, end;
     bool from_within, to_within;
     int depth;
   };
@@ -164,12 +166,12 @@ class CurveCrosser {
 
   /// Returns how often the coefficients of the Bernstein form over a range change their sign: as
   /// often as there are roots, or more often by an even number (Descartes' rule). They are formed
-  /// of the control points there. Coefficients of the whole curve, divided, would have a rounding
-  /// of what is far from the path.
-  int sign_changes(const Curve& curve, const Range& range) const {
-    const auto [p, u] = polar(curve, range.from, range.from);
-    const auto [q, w] = polar(curve, range.from, range.to);
-    const auto [r, v] = polar(curve, range.to, range.to);
+  /// of the control points there, of which the middle one is given. Coefficients of the whole
+  /// curve, divided, would have a rounding of what is far from the path.
+  int sign_changes(const Range& range, const Polar& control) const {
+    const auto& [p, u] = range.start;
+    const auto& [q, w] = control;
+    const auto& [r, v] = range.end;
     const double least = std::max({rounding(p), rounding(q), rounding(r)});
     const double middle = 2 * w * w * within_curve(q, q) + u * v * within_curve(p, r);
     int changes = 0;
@@ -190,21 +192,25 @@ class CurveCrosser {
   void cross_half(const Curve& curve, bool from_within, bool to_within, bool is_below) const {
     std::array<Range, kDeepest + 1> open;
     int count = 0, ranges = 0;
-    open[count++] = {0, 1, from_within, to_within, 0};
+    const Polar start{curve.start, curve.start_weight}, end{curve.end, curve.end_weight};
+    open[count++] = {0, 1, start, end, from_within, to_within, 0};
     while (count > 0) {
       const Range range = open[--count];
-      const int changes = sign_changes(curve, range);
+      const Polar control = range.depth == 0 ? Polar{curve.control, curve.weight}
+                                             : polar(curve, range.from, range.to);
+      const int changes = sign_changes(range, control);
       if (changes == 0) continue;
       if (changes == 1 || range.depth == kDeepest || ++ranges > kMostRanges) {
         if (range.from_within != range.to_within) add_root(curve, range, is_below);
         continue;
       }
       const double middle = 0.5 * (range.from + range.to);
-      const CurvePoint point = polar(curve, middle, middle).point;
-      const bool is_within = side(within_curve(point, point), rounding(point), range.from_within);
+      const Polar at = polar(curve, middle, middle);
+      const bool is_within =
+          side(within_curve(at.point, at.point), rounding(at.point), range.from_within);
       const int depth = range.depth + 1;
-      open[count++] = {middle, range.to, is_within, range.to_within, depth};
-      open[count++] = {range.from, middle, range.from_within, is_within, depth};
+      open[count++] = {middle, range.to, at, range.end, is_within, range.to_within, depth};
+      open[count++] = {range.from, middle, range.start, at, range.from_within, is_within, depth};
     }
   }
 
