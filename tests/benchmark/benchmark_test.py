@@ -180,11 +180,14 @@ class Results(Benchmark):
         self.assertEqual(self.measure("--section", "stability").returncode, 0)
         for processor, kept in (("", True), ("Abacus", False)):
             before = json.loads(self.results.read_text())
-            before["sections"]["paper"] = "kept"
+            before["sections"]["paper"] = {"commit": "0123456789", "date": "2026-01-02T03:04Z"}
             before["machine"]["processor"] = processor or before["machine"]["processor"]
             self.results.write_text(json.dumps(before))
             self.assertEqual(self.measure("--section", "stability").returncode, 0)
-            self.assertEqual("paper" in json.loads(self.results.read_text())["sections"], kept)
+            after = json.loads(self.results.read_text())
+            self.assertEqual(after["sections"].get("paper"), before["sections"]["paper"] if kept else None)
+            self.assertEqual(report.section_text(after["sections"]["stability"], after), "")
+        self.assertIn("2026-01-02 at commit 0123456789", report.section_text(before["sections"]["paper"], after))
 
     def test_numbers(self):
         for value, text in ((0, "0"), (0.04123, "0.0412"), (8.129, "8.13"), (9.996, "10.0"), (345.4, "345"),

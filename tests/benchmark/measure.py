@@ -1,5 +1,5 @@
 """Measures scadray and its peers; tests/benchmark/run calls it. Writes a results file (JSON), and keeps the file's
-other sections if they are of the same commit and machine."""
+other sections, each with its commit and date, if they are of the same machine."""
 
 import argparse
 import datetime
@@ -32,6 +32,9 @@ def output_of(*command):
     except FileNotFoundError:
         return ""
     return result.output if result.status == 0 else ""
+
+
+FORMAT = 3  # of the results: the report does not understand sections of another one
 
 
 def commit():
@@ -67,8 +70,8 @@ def sections_kept(path, now):
         old = json.loads(path.read_text())
     except (OSError, ValueError):
         return {}
-    same = all(old.get("machine", {}).get(key) == now[key] for key in ("processor", "cores", "commit"))
-    return old.get("sections", {}) if same else {}
+    same = all(old.get("machine", {}).get(key) == now[key] for key in ("processor", "cores"))
+    return old.get("sections", {}) if same and old.get("format") == FORMAT else {}
 
 
 def main():
@@ -96,9 +99,9 @@ def main():
         say(f"== {name}")
 
         def keep(result, name=name):
-            kept[name] = result
+            kept[name] = result | {key: now[key] for key in ("commit", "date")}
             fresh = options.output.with_suffix(".new")  # the old file stays until the new one is complete
-            fresh.write_text(json.dumps({"format": 2, "machine": now, "sections": kept}, indent=1) + "\n")
+            fresh.write_text(json.dumps({"format": FORMAT, "machine": now, "sections": kept}, indent=1) + "\n")
             fresh.rename(options.output)
         settings.keep = keep
         keep(measure(settings))

@@ -472,6 +472,13 @@ def machine_text(machine):
         {machine['system']}, {machine['compiler']}; {versions}.""")
 
 
+def section_text(section, results):
+    """Says of which commit a section is, if it was not measured with the last."""
+    if section["commit"] == results["machine"]["commit"]:
+        return ""
+    return paragraph(f"This section was measured {section['date'][:10]} at commit {section['commit']}.")
+
+
 def report_text(results, folder):
     text = "# Benchmarks\n" + paragraph("""[`tests/benchmark/run`](../run) wrote this file, its plots and
         [results.json](results.json); nothing in them is written by hand. It installs what it needs on a Debian 12,
@@ -481,7 +488,7 @@ def report_text(results, folder):
     for name, write in CHAPTERS.items():
         section = results["sections"].get(name)
         if section:
-            text += write(section, folder)
+            text += write(section, folder) + section_text(section, results)
             if section.get("left_out"):
                 text += "\nLeft out:\n\n" + "".join(f"- {reason}\n" for reason in section["left_out"])
     return text
@@ -506,8 +513,9 @@ def main():
     for plot in options.report.glob("*.svg"):
         plot.unlink()
     text = report_text(results, options.report)
-    parts = [write(results["sections"][name]) for name, write in {"real": real_summary, "error": error_summary}.items()
-             if name in results["sections"]]
+    sections = results["sections"]
+    parts = [write(sections[name]) + section_text(sections[name], results)
+             for name, write in {"real": real_summary, "error": error_summary}.items() if name in sections]
     readme = with_part(readme, machine_text(results["machine"]) + "".join(parts))
     (options.report / "README.md").write_text(text)
     options.summary.write_text(readme)
