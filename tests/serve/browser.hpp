@@ -154,6 +154,7 @@ class BrowserSocket {
       if (head[0] == '\x81') return SocketMessage{Json::parse(payload), {}};
       if (head[0] == '\x82') return frame_of(payload);
       if ((head[0] & 0xF) == 8) return std::nullopt;
+      if ((head[0] & 0xF) == 9) connection_.send(client_frame(payload, '\x8A'));  // as browsers do
     }
   }
   /// Returns the answer to a request, and drops what comes before.

@@ -28,6 +28,10 @@ class PreviewClient {
   /// Does not open the document, which is in that file.
   PreviewClient() : path(folder / "a.scad") {}
 
+  /// Replaces a file, as most editors do: the server reads no half of it.
+  void save(const std::string& name, const std::string& text) const {
+    std::filesystem::rename(folder.write(name + '~', text), folder / name);
+  }
   void begin(Json look = Json::object()) {
     if (!look.contains("width")) look["width"] = 160;
     if (!look.contains("height")) look["height"] = 120;
@@ -246,9 +250,9 @@ TEST(Preview, FollowsAFileThatIsNotOpen) {
   client.folder.write("b.scad", "size = 4;");
   client.begin({{"camera", kTop}});
   EXPECT_EQ(client.final_frame().image, fresh_picture("cube(4);"));
-  client.folder.write("b.scad", "size = 6;");
+  client.save("b.scad", "size = 6;");
   EXPECT_EQ(client.final_frame().image, fresh_picture("cube(6);"));
-  client.folder.write("a.scad", "sphere(5);");
+  client.save("a.scad", "sphere(5);");
   EXPECT_EQ(client.final_frame().image, fresh_picture("sphere(5);"));
   // The text of an editor goes before, until it is closed.
   client.client.open(client.path, "cylinder(r = 3, h = 1);");
@@ -278,7 +282,7 @@ TEST(Preview, ShowsACsgWithItsRoundedNumbersMended) {
   EXPECT_NEAR(client.request("pick", place)["normal"][0], normal, 1e-9);
   client.notify("cursor", {{"position", {{"line", 1}, {"character", 0}}}});
   EXPECT_NE(client.final_frame().image, seen);
-  client.folder.write("a.csg", csg + "cube(;");
+  client.save("a.csg", csg + "cube(;");
   EXPECT_EQ(client.design()["ok"], false);
 }
 
@@ -298,13 +302,13 @@ TEST(Preview, ShowsAMesh) {
   EXPECT_TRUE(client.request("exportModel", {{"path", "a.stl"}}).contains("path"));
   std::string wider = tetrahedron;
   wider.replace(wider.find("9 0 0"), 1, "8");
-  client.folder.write("a.off", wider);
+  client.save("a.off", wider);
   EXPECT_NE(client.final_frame().image, seen);
 }
 
 TEST(Preview, SaysWhenItsFileIsGone) {
   PreviewClient client;
-  client.folder.write("a.scad", "cube(4);");
+  client.save("a.scad", "cube(4);");
   client.begin();
   EXPECT_EQ(client.design()["ok"], true);
   std::filesystem::remove(client.path);
