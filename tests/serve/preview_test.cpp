@@ -28,6 +28,12 @@ class PreviewClient {
   /// Does not open the document, which is in that file.
   PreviewClient() : path(folder / "a.scad") {}
 
+  /// Writes a file and lets it age: one that is as new as its first reading is read twice.
+  void write(const std::string& name, const std::string& text) const {
+    folder.write(name, text);
+    constexpr std::chrono::milliseconds kOld{20};
+    std::this_thread::sleep_for(kOld);
+  }
   /// Replaces a file, as most editors do: the server reads no half of it.
   void save(const std::string& name, const std::string& text) const {
     std::filesystem::rename(folder.write(name + '~', text), folder / name);
@@ -246,8 +252,8 @@ TEST(Preview, FollowsAFileThatIsNotOpen) {
   PreviewClient client;
   client.begin();
   EXPECT_EQ(client.opened["code"], -32803);
-  client.folder.write("a.scad", "include <b.scad>\ncube(size);");
-  client.folder.write("b.scad", "size = 4;");
+  client.write("a.scad", "include <b.scad>\ncube(size);");
+  client.write("b.scad", "size = 4;");
   client.begin({{"camera", kTop}});
   EXPECT_EQ(client.final_frame().image, fresh_picture("cube(4);"));
   client.save("b.scad", "size = 6;");
@@ -275,7 +281,7 @@ TEST(Preview, ShowsACsgWithItsRoundedNumbersMended) {
   const double normal = typed.request("pick", place)["normal"][0];
   PreviewClient client;
   client.path = client.folder / "a.csg";
-  client.folder.write("a.csg", csg);
+  client.write("a.csg", csg);
   client.begin({{"camera", kTop}});
   EXPECT_EQ(client.design()["ok"], true);
   const frontend::Bytes seen = client.final_frame().image;
@@ -291,8 +297,8 @@ TEST(Preview, ShowsAMesh) {
       "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
   PreviewClient client;
   client.path = client.folder / "a.off";
-  client.folder.write("a.off", tetrahedron);
-  client.folder.write("b.off", tetrahedron);
+  client.write("a.off", tetrahedron);
+  client.write("b.off", tetrahedron);
   client.begin({{"camera", kTop}});
   const frontend::Bytes seen = client.final_frame().image;
   EXPECT_EQ(seen, fresh_picture("polyhedron([[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]],"
@@ -308,7 +314,7 @@ TEST(Preview, ShowsAMesh) {
 
 TEST(Preview, SaysWhenItsFileIsGone) {
   PreviewClient client;
-  client.save("a.scad", "cube(4);");
+  client.write("a.scad", "cube(4);");
   client.begin();
   EXPECT_EQ(client.design()["ok"], true);
   std::filesystem::remove(client.path);
@@ -669,8 +675,8 @@ long waits(const std::set<std::string>& folders) {
 TEST(Preview, DoesNothingAtRest) {
   const std::set<std::string> others = thread_folders();  // a sanitizer's may wake by itself
   PreviewClient client;
-  client.folder.write("a.scad", "include <b.scad>\ncube(size);");
-  client.folder.write("b.scad", "size = 5;");
+  client.write("a.scad", "include <b.scad>\ncube(size);");
+  client.write("b.scad", "size = 5;");
   client.begin();
   client.final_frame();
   std::set<std::string> threads;
