@@ -63,7 +63,7 @@ void ScreenBounds::narrow_to_members(uint32_t group) const {
   const OperandGroups::Members members = groups_.members(group);
   const double* const center = groups_.extents()[group].center;
   const auto [low_x, high_x, low_y, high_y] = members.rows(rectangles_.get());
-  const Rectangle all = find_rectangles(
+  const ScreenRectangle all = find_rectangles(
       groups_.balls(group), static_cast<uint32_t>(members.primitive.size()),
       {center[0], center[1], center[2]}, frame_, options_, {low_x, high_x, low_y, high_y});
   narrow(all, frame_.view, screen_[group]);

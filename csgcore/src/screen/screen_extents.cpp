@@ -218,9 +218,9 @@ constexpr double kFarBeside = 4;
 /// The same as kNearestDepth, for a ball's reach in float, which has half the digits.
 constexpr double kNearestDepthInFloat = 0x1p-10;
 
-Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                          const FrameRays& frame, const ScreenOptions& options,
-                          float* const (&rows)[4]) {
+ScreenRectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                                const FrameRays& frame, const ScreenOptions& options,
+                                float* const (&rows)[4]) {
   constexpr double kFar = 1e30;
   const hn::CappedTag<float, kRowPadding> d;
   using V = hn::Vec<decltype(d)>;
@@ -323,9 +323,9 @@ namespace csgcore {
 CSGCORE_SIMD_EXPORT(find_screen_extents);
 CSGCORE_SIMD_EXPORT(find_rectangles);
 
-Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                          const FrameRays& frame, const ScreenOptions& options,
-                          float* const (&rows)[4]) {
+ScreenRectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                                const FrameRays& frame, const ScreenOptions& options,
+                                float* const (&rows)[4]) {
   return CSGCORE_SIMD(find_rectangles)(balls, count, center, frame, options, rows);
 }
 
@@ -362,7 +362,7 @@ PixelArea pixels_of(const Extent& screen, const View& view) {
   return {first[0], first[1], end[0] - first[0], end[1] - first[1]};
 }
 
-void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {
+void set_rectangle(const ScreenRectangle& pixels, const View& view, Extent& screen) {
   const double low[] = {pixels.low_x, pixels.low_y};
   const double high[] = {pixels.high_x, pixels.high_y};
   const double size[] = {double(view.width_px), double(view.height_px)};
@@ -379,7 +379,7 @@ void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {
   }
 }
 
-void narrow(const Rectangle& to, const View& view, Extent& screen) {
+void narrow(const ScreenRectangle& to, const View& view, Extent& screen) {
   const auto low = [&](int axis) { return screen.center[axis] - screen.half[axis]; };
   const auto high = [&](int axis) { return screen.center[axis] + screen.half[axis]; };
   set_rectangle({std::max(to.low_x, low(0)), std::min(to.high_x, high(0)),

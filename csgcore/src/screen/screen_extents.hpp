@@ -29,7 +29,7 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
                          const FrameRays& frame, const ScreenOptions& options, Extent* screen);
 
 /// A rectangle on the screen. An empty one (low > high) is met by no ray.
-struct Rectangle {
+struct ScreenRectangle {
   double low_x, high_x, low_y, high_y;
   bool is_empty() const { return low_x > high_x || low_y > high_y; }
 };
@@ -38,14 +38,14 @@ struct Rectangle {
 /// which is in world space. `rows` get `count` floats each: low x, high x, low y and high y. The
 /// rectangles of balls that lie behind the eye, beside the picture or between the rays are empty.
 /// Returns a rectangle that holds all others.
-Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                          const FrameRays& frame, const ScreenOptions& options,
-                          float* const (&rows)[4]);
+ScreenRectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                                const FrameRays& frame, const ScreenOptions& options,
+                                float* const (&rows)[4]);
 
 /// Sets the extent's x and y, and whether it is visible, to those of a rectangle.
-void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen);
+void set_rectangle(const ScreenRectangle& pixels, const View& view, Extent& screen);
 /// Does the same with the intersection of the rectangle and the extent's own.
-void narrow(const Rectangle& to, const View& view, Extent& screen);
+void narrow(const ScreenRectangle& to, const View& view, Extent& screen);
 
 /// Returns false if no ray can meet the primitive: it is beside the picture, or between the rays.
 inline bool is_visible(const Extent& screen) {

@@ -88,7 +88,8 @@ bool is_large(const Extent& screen) {
 }
 
 /// Narrows an extent to a rectangle; rounds it to pixels' centres first if options.centers_only.
-void narrow(Rectangle to, const Picture& picture, const ScreenOptions& options, Extent& screen) {
+void narrow(ScreenRectangle to, const Picture& picture, const ScreenOptions& options,
+            Extent& screen) {
   if (options.centers_only) {
     to = {std::ceil(to.low_x), std::floor(to.high_x), std::ceil(to.low_y), std::floor(to.high_y)};
   }

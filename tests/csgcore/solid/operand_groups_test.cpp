@@ -190,7 +190,7 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
       // The numbers after a group's are another group's.
       std::vector<float> rows[4];
       for (auto& row : rows) row.assign(count + 1, 7.0f);
-      const Rectangle all = find_rectangles(
+      const ScreenRectangle all = find_rectangles(
           groups_.balls(group), count, {center[0], center[1], center[2]}, frame, {false},
           {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
       for (const auto& row : rows) ASSERT_EQ(row[count], 7.0f);
@@ -401,7 +401,7 @@ TEST(MemberRectangles, WhatOverflowsMayBeAnywhere) {
       SCOPED_TRACE(name);
       std::vector<float> rows[4];
       for (auto& row : rows) row.resize(kCount + kRowPadding);
-      const Rectangle all =
+      const ScreenRectangle all =
           find_rectangles({x.data(), zeros.data(), zeros.data(), radius.data()}, kCount, Vec3(0.0),
                           frame_rays(view, kSpace), {false},
                           {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
@@ -431,7 +431,7 @@ TEST(MemberRectangles, EveryInstructionSetAgrees) {
     checks::for_each_simd_level([&](SimdLevel) {
       std::vector<float> rows(4 * kCount);
       float* const row = rows.data();
-      const Rectangle all =
+      const ScreenRectangle all =
           find_rectangles({balls[0].data(), balls[1].data(), balls[2].data(), balls[3].data()},
                           kCount, Vec3(-4.0), frame_rays(view, kSpace), {true},
                           {row, row + kCount, row + 2 * kCount, row + 3 * kCount});
