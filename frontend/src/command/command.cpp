@@ -15,6 +15,7 @@
 #include "command/models.hpp"
 #include "command/outputs.hpp"
 #include "command/texts.hpp"
+#include "command/versions.hpp"
 #include "csgcore/workers.hpp"
 #include "frontend/animated_picture.hpp"
 #include "frontend/design_file.hpp"
@@ -287,14 +288,6 @@ class Run {
   std::optional<csgcore::Workers> workers_;
 };
 
-void print_info() {
-  std::printf(
-      "scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR), GIF (giflib), WebP (libwebp)\nrenderers: "
-      "%s\n.scad by: %s\n",
-      SCADRAY_VERSION, SCADRAY_RENDERERS,
-      "scadray itself, or openscad (on PATH, or $SCADRAY_OPENSCAD)");
-}
-
 /// Runs scadray-gl in place of this program. Returns if that is not there and the CPU may draw.
 void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind) {
   try {
@@ -352,8 +345,7 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
       std::fputs(export_settings_text().c_str(), stdout);
       break;
     case Action::kVersion:
-      std::printf("scadray version %s\nlanguages of OpenSCAD: 2026 (default), 2021.01\n",
-                  SCADRAY_VERSION);
+      print_version();
       break;
     case Action::kInfo:
       print_info();
