@@ -127,8 +127,8 @@ constexpr OptionRow kOwnOptions[] = {
      "is exactly round",
      kOneOf<kFacets>},
     {"tolerance", Takes::kText, "T",
-     "facets of what is exported are at most T from the round surface, and their corners on it; "
-     "default: OpenSCAD's facets"},
+     "facets of what is exported are at most T from the round surface, and uncut ones have their "
+     "corners on it; default: OpenSCAD's facets"},
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW",
