@@ -159,15 +159,21 @@ class SlowSearch(Benchmark):
 
 class Results(Benchmark):
     def test_the_report_reads_what_is_measured(self):
-        result = self.measure("--section", "real", "--section", "growth", "--section", "stability", "--section", "frames")
+        sections = ["real", "growth", "stability", "frames", "models", "studio"]
+        result = self.measure(*(word for section in sections for word in ("--section", section)))
         self.assertEqual(result.returncode, 0, result.stderr)
         results = json.loads(self.results.read_text())
         for curve in results["sections"]["stability"]["curves"]:
             self.assertEqual(curve["rows"][0]["double"]["wrong"], 0)
         for design in results["sections"]["real"]["designs"]:
             self.assertLessEqual(design.get("facets_off", 0), 32, design["design"])
+        models, studio = (results["sections"][name] for name in ("models", "studio"))
+        self.assertGreater(models["kernel"][0]["triangles"], 10_000)
+        self.assertEqual([row["tolerance_mm"] for row in models["tolerances"]], [1, 0.1])
+        self.assertLess(studio["designs"][0]["rests"][1]["mean_error"], studio["at_most"][1])
         text = report.report_text(results, self.folder)
-        for heading in ("Designs that people draw", "How it grows", "What cannot be seen", "Pixels and threads", "Numerical stability"):
+        for heading in ("Designs that people draw", "How it grows", "What cannot be seen", "Pixels and threads",
+                        "Numerical stability", "Meshes and their files", "The studio's light"):
             self.assertIn(f"\n## {heading}\n", text)
         for plot in ("real", "growth", "frames", "stability_angle"):
             self.assertIn(f"({plot}.svg)", text)
@@ -188,6 +194,15 @@ class Results(Benchmark):
             self.assertEqual(after["sections"].get("paper"), before["sections"]["paper"] if kept else None)
             self.assertEqual(report.section_text(after["sections"]["stability"], after), "")
         self.assertIn("2026-01-02 at commit 0123456789", report.section_text(before["sections"]["paper"], after))
+
+    def test_the_panel_is_told_of(self):
+        one = {"median": 41, "least": 40, "quartiles": [40, 43], "count": 20}
+        section = {"edits": [{"design": "30 lines", "light": "flat", "edit_ms": one, "at_most": 50}], "left_out": [],
+                   "turns": [{"design": "CS1000", "frames_per_second": 42.5, "width_px": 513, "gap_ms": one, "at_least": 30}]}
+        text = report.write_panel(section, self.folder)
+        self.assertIn("| 30 lines | flat | 41 (40–43) | at most 50 |", text)
+        self.assertIn("| CS1000 | 42.5 | at least 30 | 513 | 41 (40–43) |", text)
+        self.assertEqual(report.write_panel({"edits": [], "turns": [], "left_out": []}, self.folder), "")
 
     def test_numbers(self):
         for value, text in ((0, "0"), (0.04123, "0.0412"), (8.129, "8.13"), (9.996, "10.0"), (345.4, "345"),

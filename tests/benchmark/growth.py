@@ -163,6 +163,35 @@ def walls(share):
 translate([0, 6, 0]) difference() {{ cylinder(4, r = 2); translate([0, 0, {wall}]) cylinder(4, r = 2 - {wall}); }}"""
 
 
+def mesh_walls(share):
+    """A bowl and a cup whose walls are between triangles, which share no plane with others."""
+    wall = f"{12 * share:.17g}"
+    return f"""{BALL_OF_TRIANGLES}
+difference() {{ ball(3); ball(3 - {wall}); translate([-3, 0, -4]) cylinder(8, r = 3); }}
+translate([0, 6, 0]) rotate([3, 4, 5]) difference() {{ ball(2.5); translate([0, 0, {wall}]) ball(2.5); }}"""
+
+
+BALL_OF_TRIANGLES = """function at(r, i, j) = r * [cos(30 * i) * sin(20 * j + 20), sin(30 * i) * sin(20 * j + 20), cos(20 * j + 20)];
+module ball(r) polyhedron(
+  [for (j = [0 : 7]) for (i = [0 : 11]) at(r, i, j), [0, 0, r], [0, 0, -r]],
+  [for (j = [0 : 6]) for (i = [0 : 11]) for (half = [0, 1]) let (k = (i + 1) % 12) half == 0 ?
+     [12 * j + i, 12 * j + k, 12 * j + 12 + k] : [12 * j + i, 12 * j + 12 + k, 12 * j + 12 + i],
+   for (i = [0 : 11]) [96, (i + 1) % 12, i], for (i = [0 : 11]) [97, 84 + i, 84 + (i + 1) % 12]]);"""
+
+
+def profile_walls(share):
+    wall = f"{12 * share:.17g}"
+    return f"""linear_extrude(3) difference() {{ offset(1) square([4, 3]); translate([0, 0.1]) offset(1 - {wall}) square([4, 3]); }}
+translate([2, 7, 0]) rotate_extrude() {{ translate([1, 0]) square([{wall}, 3]); translate([2, 0]) circle({wall}); }}"""
+
+
+def twisted_walls(share):
+    wall = f"{12 * share:.17g}"
+    return f"""linear_extrude(4, twist = 90, slices = 12) difference() {{ square(4, center = true); square(4 - 2 * {wall}, center = true); }}
+translate([0, 6, 0]) linear_extrude(4, scale = [0.5, 0.8], twist = 40, slices = 9)
+  for (x = [-1.5 : 1 : 1.5]) translate([x, 0]) square([{wall}, 3], center = true);"""
+
+
 def powers(first, last, step=1):
     return [10.0**digits for digits in range(first, last + 1, step)]
 
@@ -172,6 +201,12 @@ CURVES = [
      lambda value: (BLOCK, [0, 0, 5, 55, 0, 25, 60 * value], value)),
     ("thickness", "walls of a bowl and a cup", "thickness, as a share of the model's size", powers(-9, -1),
      lambda value: (walls(value), [0, 3, 1, 55, 0, 25, 36], 1)),
+    ("mesh_thickness", "walls between triangles", "thickness, as a share of the model's size", powers(-9, -1),
+     lambda value: (mesh_walls(value), [0, 3, 0, 55, 0, 25, 36], 1)),
+    ("profile_thickness", "extruded and revolved walls", "thickness, as a share of the model's size", powers(-9, -2),
+     lambda value: (profile_walls(value), [1, 4, 1, 55, 0, 25, 40], 1)),
+    ("twist_thickness", "twisted walls", "thickness, as a share of the model's size", powers(-9, -2),
+     lambda value: (twisted_walls(value), [0, 3, 2, 55, 0, 25, 36], 1)),
     ("scale", "a drilled block, scaled", "scale", powers(-12, 12, 3),
      lambda value: (f"scale({value:g}) {BLOCK}", [0, 0, 5 * value, 55, 0, 25, 60 * value], 1)),
     ("offset", "a drilled block far from the origin", "offset, in sizes of the model", powers(0, 11),

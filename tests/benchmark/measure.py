@@ -12,13 +12,17 @@ import sys
 
 import error
 import growth
+import models
+import panel
 import paper
 import real
+import studio
 from measuring import ROOT, Settings, WrongAnswer, run, say
 
 # Each measures one section, and checks its answers before it takes a time.
 SECTIONS = {"real": real.measure, "error": error.measure, "growth": growth.measure_growth, "frames": growth.measure_frames,
-            "stability": growth.measure_stability, "opengl": paper.measure_opengl, "paper": paper.measure_paper}
+            "stability": growth.measure_stability, "models": models.measure, "studio": studio.measure,
+            "panel": panel.measure, "opengl": paper.measure_opengl, "paper": paper.measure_paper}
 
 
 def first_match(pattern, text, otherwise="unknown"):

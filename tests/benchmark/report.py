@@ -363,6 +363,52 @@ def write_stability(section, folder):
     return text + table(["scene", "over", "precision", "hits", "wrong", "undecided", "worst position"], rows) + figures
 
 
+def write_models(section, folder):
+    text = "\n## Meshes and their files\n"
+    if section["kernel"]:
+        text += paragraph("""From operands in memory to a closed mesh, by two threads. *Volume* is the error of the mesh's
+            volume as a share, which is checked before the time is taken.""")
+        text += table(["scene", "triangles before", "after", "ms", "processor", "volume"],
+                      [[row["title"], number(row["triangles_in"]), number(row["triangles"]), number(row["median_ms"]),
+                        number(row["cpu_ms"]), number(row["volume_error"])] for row in section["kernel"]])
+    text += paragraph(f"{title(section['formats_of'])} from its text to a file, whole processes:")
+    text += table(["file", "size", "ms"],
+                  [[row["suffix"], size(row["bytes"]), spread(row["time_ms"])] for row in section["formats"]])
+    text += paragraph("""A pierced ball of 20 mm with `--tolerance`, which says how far faces may be from the exact
+        surface; corners lie on it, and an STL rounds them to floats.""")
+    return text + table(["tolerance, mm", "triangles", "faces off, mm", "corners off, mm", "ms"],
+                        [[number(row["tolerance_mm"]), number(row["triangles"]), number(row["faces_off_mm"]),
+                          number(row["corners_off_mm"]), spread(row["time_ms"])] for row in section["tolerances"]])
+
+
+def write_studio(section, folder):
+    text = "\n## The studio's light\n" + paragraph(f"""The window's pictures, {section['width_px']}×{section['height_px']}
+        pixels of four rays each, from the prepared solid: *flat* has no shadows, the *first rest* has light by few
+        directions, the *last* by more. Errors are means over pixels in levels of 255, against
+        {number(section['directions'])} directions of the sky and as many of the key light.""")
+    head = ["design", "flat, ms"]
+    for rest, at_most in zip(("first rest", "last"), section["at_most"]):
+        head += [f"{rest}, ms", f"error ({at_most} wanted)", "worst"]
+    return text + table(head, [
+        [title(design["design"]), spread(design["shaded_ms"])] +
+        [cell for rest in design["rests"]
+         for cell in (spread(rest["ms"]), number(rest["mean_error"]), number(rest["worst_error"]))]
+        for design in section["designs"]])
+
+
+def write_panel(section, folder):
+    if not section["edits"]:
+        return ""
+    text = "\n## The preview in a browser\n" + paragraph("""Chromium's panel of 800×600 pixels on the same two cores: from
+        a save on the disk to the full frame on the canvas, and while the mouse turns the design.""")
+    text += table(["design", "light", "ms", "wanted"],
+                  [[row["design"], row["light"], spread(row["edit_ms"]), f"at most {row['at_most']}"]
+                   for row in section["edits"]])
+    return text + table(["design", "frames a second", "wanted", "pixels wide", "between frames, ms"],
+                        [[row["design"], number(row["frames_per_second"]), f"at least {row['at_least']}",
+                          row["width_px"], spread(row["gap_ms"])] for row in section["turns"]])
+
+
 def write_opengl(section, folder):
     frames = section["frames"]
     if not frames:
@@ -458,7 +504,8 @@ def write_paper(section, folder):
     return text + figure(folder, "paper_dependence", "T_R over area and depth complexity", panels)
 
 
-CHAPTERS = {"real": write_real, "error": write_error, "growth": write_growth, "frames": write_frames, "stability": write_stability,
+CHAPTERS = {"real": write_real, "error": write_error, "growth": write_growth, "frames": write_frames,
+            "stability": write_stability, "models": write_models, "studio": write_studio, "panel": write_panel,
             "opengl": write_opengl, "paper": write_paper}
 
 

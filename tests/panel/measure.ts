@@ -1,5 +1,9 @@
 // measure.ts: how long Chromium's panel of 800 × 600 pixels takes to show an edit, and how fast it turns. By
-// `tests/panel/run PROGRAM FOLDER measure`; no test, since times depend on what else the machine does.
+// `tests/panel/run PROGRAM FOLDER measure`; no test, since times depend on what else the machine does. Each line of its
+// output that begins with "{" is the JSON of one of these:
+//   {"design", "light", "edit_ms": from each save to the full frame}
+//   {"design", "frames_per_second": while the mouse turns it, "width_px": of half of the frames or more,
+//    "gap_ms": between frames}
 import { join } from 'node:path';
 import { Panel, launch } from './support/browser';
 
@@ -28,9 +32,8 @@ module row() { for (i = [0 : 39]) translate([i, 0, 0]) pin(); }
 for (j = [0 : 24]) translate([0, j, 0]) row();
 `;
 
-const quantile = (values: number[], share: number): number => [...values].sort((a, b) => a - b)[Math.floor(share * (values.length - 1))]!;
-const told = (values: number[]): string =>
-  `median ${quantile(values, 0.5).toFixed(1)}, 90% within ${quantile(values, 0.9).toFixed(1)}, most ${Math.max(...values).toFixed(1)} ms`;
+const told = (measured: object): void => console.log(JSON.stringify(measured));
+const middle = (values: number[]): number => [...values].sort((a, b) => a - b)[values.length >> 1]!;
 
 /** Notes when each frame is on the canvas, in ms since 1970. */
 async function note(panel: Panel): Promise<void> {
@@ -69,7 +72,7 @@ async function measureEdits(name: string, text: (n: number) => string): Promise<
       await panel.page.waitForTimeout(100);
       version = await panel.page.evaluate(() => (window as unknown as Noted).shown.at(-1)!.version);
     }
-    console.log(`${name}, ${light}: from the save to the full frame ${told(times)}`);
+    told({ design: name, light, edit_ms: times });
     await panel.close();
   }
   await browser.close();
@@ -91,9 +94,7 @@ async function measureTurning(): Promise<void> {
   const frames = await page.evaluate(() => (window as unknown as Noted).shown);
   await page.mouse.up();
   const gaps = frames.slice(1).map(({ at }, i) => at - frames[i]!.at);
-  console.log(
-    `CS1000 turns at ${(frames.length / turn_s).toFixed(1)} frames a second, at ${quantile(frames.map(({ width }) => width), 0.5)} pixels' width; between frames ${told(gaps)}`,
-  );
+  told({ design: 'CS1000', frames_per_second: frames.length / turn_s, width_px: middle(frames.map(({ width }) => width)), gap_ms: gaps });
   await panel.close();
   await browser.close();
 }
