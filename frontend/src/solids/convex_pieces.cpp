@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -19,8 +20,6 @@ using csgcore::Op;
 using csgcore::TriangleSet;
 using csgcore::Vec3;
 
-/// Triangles of what is cut, over all cuts: so many take about two seconds.
-constexpr size_t kMostCutTriangles = size_t{1} << 18;
 /// Surfaces of more edges that turn inwards are curved, and never end in few pieces.
 constexpr size_t kMostReflexEdges = 250;
 
@@ -33,37 +32,53 @@ csgcore::CsgTree tree_of_two(Op op) {
   return builder.finish();
 }
 
-/// The longest edge at which the solid turns inwards; null: it does at none.
-const SurfaceEdge* longest_reflex(const TriangleSet& surface, const std::vector<SurfaceEdge>& edges,
-                                  double slack) {
-  const SurfaceEdge* best = nullptr;
-  double most = 0;
-  for (const SurfaceEdge& edge : edges) {
-    if (!edge.is_reflex(slack)) continue;
-    const double length = glm::length(surface.vertices[edge.to] - surface.vertices[edge.from]);
-    if (best != nullptr && length <= most) continue;
-    best = &edge;
-    most = length;
-  }
-  return best;
-}
-
 Vec3 area_of(const TriangleSet& surface, uint32_t triangle) {
   const auto& t = surface.triangles[triangle];
   const Vec3& corner = surface.vertices[t[0]];
   return glm::cross(surface.vertices[t[1]] - corner, surface.vertices[t[2]] - corner);
 }
 
-/// What of the box around the surface, and more, lies below the plane of the larger triangle at the
-/// edge. It is so far above the plane that the face as a whole lies below.
-TriangleSet half_at(const TriangleSet& surface, const SurfaceEdge& edge, double slack) {
-  csgcore::Box box;
-  for (const Vec3& vertex : surface.vertices) box.merge(vertex);
+/// The half space below the plane of the larger triangle at the edge. It is so far above the plane
+/// that the face as a whole lies below.
+csgcore::HalfSpace half_at(const TriangleSet& surface, const SurfaceEdge& edge, double slack) {
   const Vec3 left = area_of(surface, edge.left), right = area_of(surface, edge.right);
   const Vec3 normal = glm::normalize(glm::length(left) >= glm::length(right) ? left : right);
   constexpr double kShareOfSlack = 0.25;
-  const csgcore::HalfSpace half{
-      normal, glm::dot(normal, surface.vertices[edge.from]) + kShareOfSlack * slack};
+  return {normal, glm::dot(normal, surface.vertices[edge.from]) + kShareOfSlack * slack};
+}
+
+/// The half spaces at all edges at which the solid turns inwards, and that are longer than the
+/// slack: cuts leave shorter ones at corners. Of those, returns the one that leaves fewest such
+/// edges on the side that has more of them; nothing if there are none.
+std::optional<csgcore::HalfSpace> best_cut(const TriangleSet& surface,
+                                           const std::vector<SurfaceEdge>& edges, double slack) {
+  std::vector<const SurfaceEdge*> reflex;
+  for (const SurfaceEdge& edge : edges) {
+    const Vec3 along = surface.vertices[edge.to] - surface.vertices[edge.from];
+    if (edge.is_reflex(slack) && glm::length(along) > slack) reflex.push_back(&edge);
+  }
+  std::optional<csgcore::HalfSpace> best;
+  size_t fewest = reflex.size() + 1;
+  for (const SurfaceEdge* const edge : reflex) {
+    const csgcore::HalfSpace half = half_at(surface, *edge, slack);
+    size_t below = 0, above = 0;
+    for (const SurfaceEdge* const other : reflex) {
+      const double from = glm::dot(half.normal, surface.vertices[other->from]) - half.offset;
+      const double to = glm::dot(half.normal, surface.vertices[other->to]) - half.offset;
+      below += std::min(from, to) < -slack;
+      above += std::max(from, to) > slack;
+    }
+    if (std::max(below, above) >= fewest) continue;
+    fewest = std::max(below, above);
+    best = half;
+  }
+  return best;
+}
+
+/// What of the box around the surface, and more, lies in the half space.
+TriangleSet cut_box(const TriangleSet& surface, const csgcore::HalfSpace& half, double slack) {
+  csgcore::Box box;
+  for (const Vec3& vertex : surface.vertices) box.merge(vertex);
   const Vec3 margin = 0.25 * box.size() + Vec3(slack);
   Corners corners;
   for (const double x : {box.min.x - margin.x, box.max.x + margin.x}) {
@@ -94,6 +109,17 @@ std::vector<PiecePoints> points_by_piece(const TriangleSet& surface,
   return result;
 }
 
+double volume_of(const TriangleSet& surface) {
+  double sum = 0;
+  if (surface.vertices.empty()) return 0;
+  const Vec3& origin = surface.vertices.front();  // of what is far from the world's, too
+  for (const auto& t : surface.triangles) {
+    sum += glm::dot(surface.vertices[t[0]] - origin,
+                    glm::cross(surface.vertices[t[1]] - origin, surface.vertices[t[2]] - origin));
+  }
+  return sum / 6;
+}
+
 }  // namespace
 
 size_t count_of_reflex_edges(const TriangleSet& surface) {
@@ -102,7 +128,8 @@ size_t count_of_reflex_edges(const TriangleSet& surface) {
       edges_of(surface), [slack](const SurfaceEdge& edge) { return edge.is_reflex(slack); }));
 }
 
-std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface, SolidPool& pool) {
+std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface, SolidPool& pool,
+                                                      size_t most_cut_triangles) {
   if (count_of_reflex_edges(surface) > kMostReflexEdges) return std::nullopt;
   const double slack = slack_of(surface);
   std::vector<PiecePoints> result;
@@ -116,19 +143,30 @@ std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface, Solid
     join_vertices(solid);
     if (solid.triangles.empty()) continue;
     const std::vector<SurfaceEdge> edges = edges_of(solid);
-    const SurfaceEdge* const longest = longest_reflex(solid, edges, slack);
-    if (longest == nullptr) {
+    const std::optional<csgcore::HalfSpace> half = best_cut(solid, edges, slack);
+    if (!half) {
       for (PiecePoints& points : points_by_piece(solid, edges)) result.push_back(std::move(points));
       continue;
     }
     work += solid.triangles.size();
-    if (work > kMostCutTriangles) return std::nullopt;
-    const std::array<TriangleSet, 2> operands{solid, half_at(solid, *longest, slack)};
+    if (work > most_cut_triangles) return std::nullopt;
+    const std::array<TriangleSet, 2> operands{solid, cut_box(solid, *half, slack)};
     for (const Op op : {Op::kDifference, Op::kIntersection}) {
       todo.push_back(pool.boundary(operands, tree_of_two(op)));
     }
   }
   return result;
+}
+
+bool fill(const std::vector<PiecePoints>& pieces, const TriangleSet& surface) {
+  double excess = -volume_of(surface), area = 0;
+  for (const PiecePoints& points : pieces) {
+    excess += volume_of(triangles_of_hull({points.begin(), points.end()}));
+  }
+  for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    area += 0.5 * glm::length(area_of(surface, t));
+  }
+  return std::abs(excess) <= slack_of(surface) * area;
 }
 
 }  // namespace frontend

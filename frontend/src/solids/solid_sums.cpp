@@ -36,6 +36,9 @@ constexpr size_t kMostSums = 200000;
 /// So many corners take two seconds and 600 MB.
 constexpr size_t kMostWork = size_t{1} << 22;
 
+/// So many triangles are cut in about two seconds, where there is no other way, or at once.
+constexpr size_t kMostCutTriangles = size_t{1} << 18, kFewCutTriangles = size_t{1} << 13;
+
 Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
 
 /// The work that the hull of the generators makes, in corners: a ball and a disc have several
@@ -172,7 +175,8 @@ std::vector<SolidPart> SolidSums::in_convex_parts(const std::vector<SolidPart>& 
       result.push_back(part);
       continue;
     }
-    const std::optional<std::vector<PiecePoints>> pieces = convex_pieces(surface_of(part), pool_);
+    const std::optional<std::vector<PiecePoints>> pieces =
+        convex_pieces(surface_of(part), pool_, kMostCutTriangles);
     if (!pieces) fail(kBecauseManyPieces);
     if (!pieces) return {};
     for (const PiecePoints& points : *pieces) {
@@ -232,12 +236,22 @@ void SolidSums::add_mesh(const SolidPart& part, const SolidPart& convex, const B
   }
 }
 
-/// The mesh, moved to a point of the convex body, and the sum of the body and each face: whatever
-/// of the sum meets no face lies within the mesh as a whole.
+/// The sums of the body and the mesh's convex pieces, where those are few. Else the mesh, moved to
+/// a point of the convex body, and the sum of the body and each face: whatever of the sum meets no
+/// face lies within the mesh as a whole.
 void SolidSums::add_faces(const SolidPart& part, const SupportSet& convex, const Box& box) {
   const Primitive& mesh = *part.primitive;
   const size_t triangles = mesh.mesh()->triangles().size();
   if (triangles > kMostSums) return fail(kBecauseManyFaces);
+  const csgcore::TriangleSet surface = surface_of(part);
+  // Of the faces there are more, and their sums overlap more.
+  const auto pieces = convex_pieces(surface, pool_, kFewCutTriangles);
+  if (pieces && pieces->size() < triangles && fill(*pieces, surface)) {
+    for (const PiecePoints& points : *pieces) {
+      add_convex(support_of_points(points, part), convex, box);
+    }
+    return;
+  }
   if (3 * triangles * convex.generators.size() > kMostWork) return fail(kBecauseManyCorners);
   sums_.push_back(moved(part, convex.generators.front().center, box));
   for (const auto& triangle : mesh.mesh()->triangles()) {

@@ -59,9 +59,14 @@ std::vector<SurfaceEdge> edges_of(const TriangleSet& surface) {
     const auto &a = surface.triangles[left.triangle], &b = surface.triangles[right.triangle];
     const bool is_shared = (i > 0 && is_same(i - 1, i)) || !is_same(i, i + 1) ||
                            (i + 2 < sides.size() && is_same(i + 1, i + 2));
-    const double height = is_shared
-                              ? std::numeric_limits<double>::infinity()
-                              : height_over(surface, left.triangle, b[(right.corner + 2) % 3]);
+    double height = std::numeric_limits<double>::infinity();
+    if (!is_shared) {
+      height = height_over(surface, left.triangle, b[(right.corner + 2) % 3]);
+      // Along a narrow ledge the solid turns inwards by no more than its width.
+      if (height > 0) {
+        height = std::min(height, height_over(surface, right.triangle, a[(left.corner + 2) % 3]));
+      }
+    }
     edges.push_back(
         {a[left.corner], a[(left.corner + 1) % 3], left.triangle, right.triangle, height});
   }

@@ -407,6 +407,32 @@ TEST(SolidMinkowski, RoundsWhatOperationsLeave) {
   EXPECT_FALSE(inside(10 + corner + 1e-6, 10 + corner + 1e-6, 4 + corner + 1e-6));
 }
 
+TEST(SolidMinkowski, OfASolidThatIsNotConvexAddsItsConvexPieces) {
+  // Walls of octagonal holes are no planes of the axes, and not quite planes: cuts leave ledges.
+  const auto place = [](int i) {
+    return std::to_string(4 + 8 * (i % 2)) + ", " + std::to_string(4 + 8 * (i / 2));
+  };
+  std::string holes, circles;
+  for (int i = 0; i < 4; ++i) {
+    holes += "translate([" + place(i) + ", -1]) cylinder(h = 6, r = 2, $fn = 8);";
+    circles += "translate([" + place(i) + "]) circle(r = 2, $fn = 8);";
+  }
+  const std::string body = "cylinder(h = 1, r1 = 1, r2 = 0.5, $fn = 6);";
+  const std::string sum =
+      "minkowski() { difference() { cube([16, 16, 4]); " + holes + "}" + body + "}";
+  EXPECT_LE(import_text(sum).scene.primitives.size(), 32) << "there are 140 triangles";
+  const Inside inside(sum);
+  const Inside expected("minkowski() { linear_extrude(height = 4) { difference() { square(16);" +
+                        circles + "} }" + body + "}");
+  for (double x = -1.45; x < 18; x += 0.25) {
+    for (double y = -1.37; y < 10; y += 0.25) {
+      for (const double z : {0.2, 2.1, 4.3}) {
+        ASSERT_EQ(inside(x, y, z), expected(x, y, z)) << x << ", " << y << ", " << z;
+      }
+    }
+  }
+}
+
 TEST(SolidMinkowski, OfARoundSolidThatIsNotConvexTakesItsFacets) {
   const std::string ring = "rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "}";
   const Inside inside("minkowski() {" + ring + "cube(2, center = true); }");
