@@ -41,6 +41,16 @@ TEST(Modules, LinearExtrude) {
   EXPECT_EQ(said_2026("linear_extrude(\"a\"); linear_extrude(v = 1);"),
             "ERROR: height when specified should be a number.\n"
             "ERROR: v when specified should be a 3d vector.\n");
+  expect_warning("linear_extrude(5, slices = 1 / 0)",
+                 "linear_extrude(..., slices=inf) argument cannot be infinite or nan");
+  expect("5, segments = 0 / 0, slices = 2", "height = 5, slices = 2" + fragments);
+  // A height turns a direction, which then stays above the plane of the figure.
+  expect("-3, v = [1, 0, -1]", "height = 3, v = [ -0.707107, -0, 0.707107]" + fragments);
+  expect("3, v = [0, 1, -1]", "height = 2.12132, v = [ 0, 1, 0]" + fragments);
+  expect("-1, v = [1, 0, 0]", "height = 1, v = [ -1, -0, 0]" + fragments);
+  expect("3, v = [0, 0, 0]", "height = 0" + fragments);
+  expect("v = [1e-8, 0, 1]", "height = 1" + fragments);
+  expect("-3", "height = 0" + fragments);
   // The numbers before the first element that is none count.
   expect("5, v = [1, [], 2]",
          "height = 5, v = [ 0.707107, 0, 0.707107], $fn = 0, $fa = 12, $fs = 2");
@@ -50,6 +60,18 @@ TEST(Modules, LinearExtrude) {
   EXPECT_EQ(tree_2021("linear_extrude(5);"),
             "linear_extrude(height = 5, center = false, convexity = 1, scale = [1, 1], $fn = 0, "
             "$fa = 12, $fs = 2);\n\n");
+}
+
+TEST(Modules, NegativeZerosOfRotations) {
+  const auto expect = [](const std::string& call, const std::string& rows) {
+    expect_node(call, "multmatrix([" + rows + ", [0, 0, 0, 1]])");
+  };
+  expect("rotate([0, 0, 180])", "[-1, 0, 0, 0], [-0, -1, 0, 0], [-0, 0, 1, 0]");
+  expect("rotate([0, 270, 0])", "[0, 0, -1, 0], [0, 1, -0, 0], [1, 0, -0, 0]");
+  expect("rotate([90, 90, 0])", "[0, 1, 0, 0], [0, 0, -1, 0], [-1, 0, 0, 0]");
+  expect("rotate(140, [-1, 0, 0])",
+         "[1, -0, 0, 0], [0, -0.766044, 0.642788, 0], [0, -0.642788, -0.766044, 0]");
+  expect("translate([-0, 0, 0])", "[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]");
 }
 
 TEST(Modules, RotateExtrude) {

@@ -113,12 +113,18 @@ Made make_linear_extrude(const BuiltinCall& call, NodeTree& tree) {
 
 namespace {
 
-/// Reads a whole number of 0 and more; nothing where there is none, which is told of another type.
+/// Reads a whole number of 0 and more; nothing where there is none, which is told of what is no
+/// finite number.
 std::optional<int64_t> read_count(const BuiltinCall& call, const Value& value,
                                   const std::string& name, int64_t least) {
-  if (value.is_number())
+  if (is_finite_number(value))
     return std::max(static_cast<int64_t>(low_bits(std::max(value.number(), 0.0))), least);
-  if (is_given(value)) warn(call, wrong_type("linear_extrude", name, "number", value));
+  if (value.is_number()) {
+    warn(call, "linear_extrude(..., " + name + "=" + shown(value) +
+                   ") argument cannot be infinite or nan");
+  } else if (is_given(value)) {
+    warn(call, wrong_type("linear_extrude", name, "number", value));
+  }
   return std::nullopt;
 }
 
@@ -136,40 +142,40 @@ void say_error(const BuiltinCall& call, std::string text) {
   call.environment.messages.say(MessageGroup::kError, std::move(text));
 }
 
-/// The height, and the direction, of length 1.
-struct Sweep {
-  double height = 100;
-  std::array<double, 3> direction = {0, 0, 1};
-};
+/// Where the origin of an extruded figure goes.
+using Sweep = std::array<double, 3>;
 
-/// Reads both. A `v` that is wrong gives the numbers before its first element that is none.
+/// The length as OpenSCAD computes it: it is 0 or infinite where the squares are.
+double length_of(const Sweep& v) { return std::sqrt(v[0] * v[0] + (v[1] * v[1] + v[2] * v[2])); }
+
+/// Reads `v`; of one that is wrong the numbers before its first element that is none.
+Sweep read_direction(const BuiltinCall& call, const Value& v) {
+  Sweep along = {0, 0, 1};
+  size_t read = 0;
+  if (v.is_vector() && v.elements().size() == along.size()) {
+    while (read < along.size() && v.elements()[read].is_number()) {
+      along[read] = v.elements()[read].number();
+      ++read;
+    }
+  }
+  if (read < along.size()) say_error(call, "v when specified should be a 3d vector.");
+  return along;
+}
+
+/// Reads the sweep. A height, which may be negative, gives `v` its length; below the
+/// figure's plane nothing goes.
 Sweep read_sweep(const BuiltinCall& call, const Value& v, const Value& named_height,
                  const Value& h) {
-  Sweep sweep;
-  if (is_given(v)) {
-    std::array<double, 3> along = sweep.direction;
-    size_t read = 0;
-    if (v.is_vector() && v.elements().size() == along.size()) {
-      while (read < along.size() && v.elements()[read].is_number()) {
-        along[read] = v.elements()[read].number();
-        ++read;
-      }
-    }
-    if (read < along.size()) say_error(call, "v when specified should be a 3d vector.");
-    sweep.height = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
-    if (sweep.height > 0)
-      for (double& part : along) part /= sweep.height;
-    sweep.direction = along;
-  }
+  Sweep along = is_given(v) ? read_direction(call, v) : Sweep{0, 0, 100};
   const Value& height = one_of(call, named_height, h, "height", "h");
-  if (is_finite_number(height)) {
-    sweep.height = height.number();
-  } else if (is_given(height)) {
-    say_error(call, "height when specified should be a number.");
-    sweep.height = 100;
+  if (is_given(height)) {
+    if (!is_finite_number(height)) say_error(call, "height when specified should be a number.");
+    const double wanted = is_finite_number(height) ? height.number() : 100;
+    const double length = length_of(along);
+    for (double& part : along) part = (length > 0 ? part / length : part) * wanted;
   }
-  if (sweep.height <= 0 || sweep.direction[2] < 0) sweep.height = 0;
-  return sweep;
+  if (along[2] <= 0) along[2] = 0;
+  return along;
 }
 
 }  // namespace
@@ -178,7 +184,9 @@ Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kHeight, kV, kScale, kCenter, kTwist, kSlices, kSegments, kConvexity, kH };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kLinearExtrude);
-  const Sweep sweep = read_sweep(call, given[kV], given[kHeight], given[kH]);
+  Sweep direction = read_sweep(call, given[kV], given[kHeight], given[kH]);
+  const double height = length_of(direction);
+  for (double& part : direction) part /= height;
   std::array<double, 2> scale = {1, 1};
   double x = 1, y = 1;
   if (is_finite_number(given[kScale])) {
@@ -191,10 +199,9 @@ Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
   for (double& factor : scale) factor = std::max(factor, 0.0);
   const auto slices = read_count(call, given[kSlices], "slices", 1);
   const auto segments = read_count(call, given[kSegments], "segments", 0);
-  add(tree, "height", sweep.height);
-  const bool is_upright = sweep.direction[0] == 0 && sweep.direction[1] == 0;
-  if (!is_upright && sweep.height > 0)
-    add_numbers(tree, "v", sweep.direction, ArgumentStyle::kGeneralSpaced);
+  add(tree, "height", height);
+  if (height > 0 && direction[2] < 1)
+    add_numbers(tree, "v", direction, ArgumentStyle::kGeneralSpaced);
   if (is_true_bool(given[kCenter])) add_bool(tree, "center", true);
   const Value& twist = given[kTwist];
   if (is_finite_number(twist) && twist.number() != 0) add(tree, "twist", twist);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "language/degrees.hpp"
@@ -17,14 +16,6 @@ using Vec3 = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 4>, 4>;  // by rows
 
 constexpr Matrix kIdentity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-
-/// Returns a matrix as a sum with zeros leaves it, where -0 is written as it is.
-Matrix without_negative_zeros(const BuiltinCall& call, Matrix matrix) {
-  if (!call.environment.dialect.writes_general_numbers) return matrix;
-  for (auto& row : matrix)
-    for (double& entry : row) entry += 0.0;
-  return matrix;
-}
 
 Made finish(const BuiltinCall& call, NodeTree& tree, const Matrix& matrix) {
   set_kind(tree, NodeKind::kMultmatrix);
@@ -67,18 +58,18 @@ Matrix rotation_about(double angle_deg, const Vec3& axis) {
            {0, 0, 0, 1}}};
 }
 
-/// Returns the matrix as a product with the identity leaves it: an entry that is not finite spoils
-/// its column.
-Matrix times_identity(Matrix matrix) {
-  for (size_t column = 0; column < 3; ++column) {
-    for (size_t row = 0; row < 3; ++row) {
-      if (std::isfinite(matrix[row][column])) continue;
-      for (size_t other = 0; other < 3; ++other) {
-        if (other != row) matrix[other][column] = std::numeric_limits<double>::quiet_NaN();
-      }
+/// Returns the identity times a rotation. An entry that is not finite spoils its column, and a -0
+/// stays where what it is added to is not positive: a .csg of 2026 shows it.
+Matrix times_identity(const Matrix& matrix) {
+  Matrix product = kIdentity;
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column < 3; ++column) {
+      product[row][column] = kIdentity[row][0] * matrix[0][column] +
+                             kIdentity[row][1] * matrix[1][column] +
+                             kIdentity[row][2] * matrix[2][column];
     }
   }
-  return matrix;
+  return product;
 }
 
 /// Reads rotate([x, y, z]) into `angles_deg`. Returns false where something is wrong. Angles are
@@ -106,7 +97,7 @@ Made rotate_by_vector(const BuiltinCall& call, NodeTree& tree) {
   } else if (is_given(v)) {
     warn(call, "When parameter a is supplied as vector, v is ignored " + arguments);
   }
-  return finish(call, tree, without_negative_zeros(call, times_identity(rotation(angles_deg))));
+  return finish(call, tree, times_identity(rotation(angles_deg)));
 }
 
 }  // namespace
@@ -116,12 +107,12 @@ Made make_translate(const BuiltinCall& call, NodeTree& tree) {
   Vec3 move = {0, 0, 0};
   Matrix matrix = kIdentity;
   if (read_vec3(v, move, 0) && are_finite(move)) {
-    for (size_t i = 0; i < 3; ++i) matrix[i][3] = move[i];
+    for (size_t i = 0; i < 3; ++i) matrix[i][3] += move[i];  // makes 0 of -0
   } else {
     warn(call,
          "Unable to convert translate(" + shown(v) + ") parameter to a vec3 or vec2 of numbers");
   }
-  return finish(call, tree, without_negative_zeros(call, matrix));
+  return finish(call, tree, matrix);
 }
 
 Made make_scale(const BuiltinCall& call, NodeTree& tree) {
@@ -158,9 +149,7 @@ Made make_rotate(const BuiltinCall& call, NodeTree& tree) {
   } else if (!is_axis) {
     warn(call, "Problem converting rotate(..., v=" + shown(v) + ") parameter");
   }
-  return finish(call, tree,
-                without_negative_zeros(
-                    call, times_identity(rotation_about(is_angle ? a.number() : 0, axis))));
+  return finish(call, tree, times_identity(rotation_about(is_angle ? a.number() : 0, axis)));
 }
 
 Made make_mirror(const BuiltinCall& call, NodeTree& tree) {
