@@ -168,7 +168,8 @@ std::string CallStack::call_text(const Frame& frame) {
 
 void CallStack::set_unit(uint32_t unit) {
   unit_ = unit;
-  environment_.messages.set_unit_folder(program_.units[unit].folder);
+  const uint32_t shown_from = program_.dialect.shows_paths_from_main_file ? 0 : unit;
+  environment_.messages.set_unit_folder(program_.units[shown_from].folder);
   environment_.files.set_unit_folder(program_.units[unit].folder);
 }
 
