@@ -1,6 +1,8 @@
 // What an evaluation of 2026's dialect begins with, how it ends, and lazy unions, beside 2021.01.
 // What 2026 says and makes was found by running OpenSCAD 2025.07.18; colours of the XKCD survey,
 // $fe and em are those of July 2026.
+#include <gmock/gmock.h>
+
 #include "dialect/said.hpp"
 #include "language/customizer.hpp"
 
@@ -124,6 +126,37 @@ TEST(Parameters, AreWrittenAsJson) {
       R"({"group":"A","initial":"n","maxLength":8,"name":"name","type":"string"},)"
       R"({"group":"A","initial":[1.0,2.0],"max":10.0,"min":0.0,"name":"v","step":0.5,)"
       R"("type":"number"}],"title":"design"})");
+}
+
+TEST(Parameters, HaveARangeThatHoldsTheDefault) {
+  const auto expect = [](const std::string& assignment, const std::string& limits) {
+    const auto parameters = customizer_parameters("x = " + assignment, LanguageVersion::k2026);
+    ASSERT_TRUE(parameters) << assignment;
+    EXPECT_THAT(parameters_text(*parameters, "design"), testing::HasSubstr(limits)) << assignment;
+  };
+  expect("5; // [5:1]", R"("max":5.0,"min":5.0,"name":"x","step":1.0)");
+  expect("5; // [1:-1:-5]", R"("max":5.0,"min":1.0,"name":"x","step":-1.0)");
+  expect("-3; // [0:10]", R"("max":10.0,"min":-3.0,"name":"x","step":1.0)");
+  expect("-3; // [10]", R"("max":10.0,"min":0.0,"name":"x","step":1.0)");
+  expect("[1, 20]; // [3:0:10]", R"("max":20.0,"min":1.0,"name":"x","step":0.0)");
+  expect("5; // [1:2:3:4]", R"("initial":5.0,"name":"x","type")");
+  expect("\"a\"; // [1:10]", R"("initial":"a","name":"x","type")");
+  expect("\"a\"; // -3", R"("maxLength":0)");
+}
+
+TEST(Parameters, HaveTheDefaultAmongTheirChoices) {
+  const auto expect = [](const std::string& assignment, const std::string& options) {
+    const auto parameters = customizer_parameters("x = " + assignment, LanguageVersion::k2026);
+    ASSERT_TRUE(parameters) << assignment;
+    EXPECT_THAT(parameters_text(*parameters, "design"),
+                testing::HasSubstr("\"options\":[" + options + "]"))
+        << assignment;
+  };
+  expect("1234567; // [1:a]",
+         R"({"name":"1.23457e+06","value":1234567.0},{"name":"a","value":1.0})");
+  expect("\"1\"; // [1, b]",
+         R"({"name":"1","value":"1"},{"name":"1","value":1.0},{"name":"b","value":"b"})");
+  expect("2; // [a, 2]", R"({"name":"a","value":"a"},{"name":"2","value":2.0})");
 }
 
 }  // namespace

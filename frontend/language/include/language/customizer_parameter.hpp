@@ -28,7 +28,8 @@ struct CustomizerParameter {
   ParameterValue value;     // the default
   uint32_t offset = 0;      // of the assignment's name within the text
 
-  // What the comment behind the assignment says.
+  // What the comment behind the assignment says, which -o x.param takes by rules of its own.
+  std::string comment;
   std::vector<ParameterChoice> choices;  // of a number or a string; empty: any value
   std::optional<ParameterRange> range;   // of a number, or of each in a vector
   std::optional<double> step;            // of the same without a range; above 0

@@ -1,6 +1,5 @@
 #include "language/customizer.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -33,48 +32,8 @@ const Scope* parse_alone(Program& program, std::string_view text) {
   }
 }
 
-/// `[value]`, `[value:label]`, or `[min:step:max]`.
-using Entry = std::vector<std::string_view>;
-
-bool is_number(std::string_view text) { return signed_number(text).has_value(); }
-
-/// Returns words with one blank between them, without quotes and parentheses; nothing if there is
-/// none, or if they are several numbers.
-std::optional<std::string> plain_words(std::string_view text) {
-  if (text.empty() || text.find_first_of("[]") != text.npos) return std::nullopt;
-  std::string words;
-  bool is_quoted = false, has_other = false;
-  for (const std::string_view word : split(text, ' ')) {
-    if (word.empty()) continue;
-    has_other = has_other || !is_number(word);
-    if (!words.empty()) words += ' ';
-    for (const char c : word) {
-      if (c == '"') {
-        is_quoted = !is_quoted;
-      } else if (is_quoted || (c != '(' && c != ')')) {
-        words += c;
-      }
-    }
-  }
-  if (words.find(' ') != words.npos && !has_other) return std::nullopt;
-  return words;
-}
-
-/// Returns the entries of a list in brackets; none if it is not well formed.
-std::vector<Entry> entries_of(std::string_view comment) {
-  if (comment.size() < 2 || comment.front() != '[' || comment.back() != ']') return {};
-  std::vector<Entry> entries;
-  for (const std::string_view entry : split(comment.substr(1, comment.size() - 2), ',')) {
-    entries.push_back(split(entry, ':'));
-    for (const std::string_view part : entries.back()) {
-      if (!plain_words(part)) return {};
-    }
-  }
-  return entries;
-}
-
 /// Returns the range that numbers give; nothing if it is empty.
-std::optional<ParameterRange> range_of(const Entry& entry) {
+std::optional<ParameterRange> range_of(const CommentEntry& entry) {
   if (entry.size() > 3) return std::nullopt;
   ParameterRange range;
   range.max = *signed_number(entry.back());
@@ -86,10 +45,11 @@ std::optional<ParameterRange> range_of(const Entry& entry) {
 
 /// Returns the choices that a list of entries gives; none if one of them is no number, but has to
 /// be.
-std::vector<ParameterChoice> choices_of(const std::vector<Entry>& entries, bool are_numbers) {
+std::vector<ParameterChoice> choices_of(const std::vector<CommentEntry>& entries,
+                                        bool are_numbers) {
   std::vector<ParameterChoice> choices;
-  for (const Entry& entry : entries) {
-    if (entry.size() > 2 || (are_numbers && !is_number(entry.front()))) return {};
+  for (const CommentEntry& entry : entries) {
+    if (entry.size() > 2 || (are_numbers && !signed_number(entry.front()))) return {};
     ParameterChoice choice;
     if (are_numbers) {
       choice.value = *signed_number(entry.front());
@@ -102,10 +62,8 @@ std::vector<ParameterChoice> choices_of(const std::vector<Entry>& entries, bool 
   return choices;
 }
 
-void annotate_numbers(CustomizerParameter& parameter, const std::vector<Entry>& entries) {
-  const bool is_range =
-      entries.size() == 1 && std::all_of(entries.front().begin(), entries.front().end(), is_number);
-  if (is_range) {
+void annotate_numbers(CustomizerParameter& parameter, const std::vector<CommentEntry>& entries) {
+  if (are_range(entries)) {
     parameter.range = range_of(entries.front());
   } else if (std::holds_alternative<double>(parameter.value)) {
     parameter.choices = choices_of(entries, true);
@@ -190,7 +148,7 @@ void annotate(CustomizerParameter& parameter, std::string_view comment) {
     }
     return;
   }
-  const std::vector<Entry> entries = entries_of(comment);
+  const std::vector<CommentEntry> entries = comment_entries(comment);
   if (is_numeric) annotate_numbers(parameter, entries);
   if (is_text) parameter.choices = choices_of(entries, false);
 }
@@ -255,7 +213,8 @@ std::optional<std::vector<CustomizerParameter>> customizer_parameters(std::strin
     parameter.group = comments.group(offset);
     parameter.value = std::move(*value);
     parameter.offset = offset;
-    annotate(parameter, comments.annotation(offset));
+    parameter.comment = comments.annotation(offset);
+    annotate(parameter, parameter.comment);
   }
   return parameters;
 }

@@ -93,4 +93,41 @@ std::string ParameterComments::group(size_t offset) const {
   }
 }
 
+std::optional<std::string> plain_words(std::string_view text) {
+  if (text.empty() || text.find_first_of("[]") != text.npos) return std::nullopt;
+  std::string words;
+  bool is_quoted = false, has_other = false;
+  for (const std::string_view word : split(text, ' ')) {
+    if (word.empty()) continue;
+    has_other = has_other || !signed_number(word);
+    if (!words.empty()) words += ' ';
+    for (const char c : word) {
+      if (c == '"') {
+        is_quoted = !is_quoted;
+      } else if (is_quoted || (c != '(' && c != ')')) {
+        words += c;
+      }
+    }
+  }
+  if (words.find(' ') != words.npos && !has_other) return std::nullopt;
+  return words;
+}
+
+std::vector<CommentEntry> comment_entries(std::string_view comment) {
+  if (comment.size() < 2 || comment.front() != '[' || comment.back() != ']') return {};
+  std::vector<CommentEntry> entries;
+  for (const std::string_view entry : split(comment.substr(1, comment.size() - 2), ',')) {
+    entries.push_back(split(entry, ':'));
+    for (const std::string_view part : entries.back()) {
+      if (!plain_words(part)) return {};
+    }
+  }
+  return entries;
+}
+
+bool are_range(const std::vector<CommentEntry>& entries) {
+  return entries.size() == 1 && std::all_of(entries.front().begin(), entries.front().end(),
+                                            [](auto part) { return signed_number(part); });
+}
+
 }  // namespace language

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,5 +54,19 @@ class ParameterComments {
   size_t end_line_ = std::numeric_limits<size_t>::max();  // of the first `{`
   Seen seen_ = Seen::kPart;
 };
+
+/// `[value]`, `[value:label]`, or `[min:step:max]`.
+using CommentEntry = std::vector<std::string_view>;
+
+/// Returns words with one blank between them, without quotes and parentheses; nothing if there is
+/// none, or if they are several numbers.
+std::optional<std::string> plain_words(std::string_view text);
+
+/// Returns the entries of a list in brackets, whose parts are all plain words; none if the comment
+/// is no such list.
+std::vector<CommentEntry> comment_entries(std::string_view comment);
+
+/// Returns whether they are one entry of numbers alone.
+bool are_range(const std::vector<CommentEntry>& entries);
 
 }  // namespace language
