@@ -18,6 +18,9 @@ class GeometryDialect : public language::VersionTable {
   /// $fs, where no `segments` are given, each of which counts as long as its longest image in a
   /// layer; and an uneven scale asks for its slices beside those that a twist asks for.
   const bool cuts_twisted_edges = row(false, true);
+  /// Whether a round corner of an offset begins with whole chords and ends with one for what is
+  /// left of its turn; else the number of chords is rounded.
+  const bool has_chord_for_rest = row(false, true);
   /// Whether letters are placed and aligned in the units of their outlines. In 2021.01 they stand
   /// 1000/1024 as far apart, and other lengths align vertical texts.
   const bool places_letters_exactly = row(false, true);
@@ -31,6 +34,11 @@ class GeometryDialect : public language::VersionTable {
   const bool intersects_boxes = row(false, true);
   /// How thick plane figures are in that box.
   const double figure_thickness = row(0.0, 1.0);
+  /// How far the axes are drawn, in distances of the camera: without an end, as far as a picture
+  /// shows.
+  const double axes_reach = row(1.0, 100.0);
+  /// Whether it is said that AMF is a format of the past.
+  const bool deprecates_amf = row(false, true);
 };
 
 }  // namespace frontend

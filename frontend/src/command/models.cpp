@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/elapsed.hpp"
+#include "base/geometry_dialect.hpp"
 #include "command/outputs.hpp"
 #include "command/summary.hpp"
 #include "frontend/design_file.hpp"
@@ -83,6 +84,15 @@ class ModelRun {
     return read_design(options_.input, reading);
   }
 
+  void deprecate_formats() {
+    const auto is_amf = [](const ModelOutput& output) {
+      return output.format == ModelFormat::kAmf;
+    };
+    if (!GeometryDialect(options_.import.language).deprecates_amf || is_silent()) return;
+    if (std::ranges::any_of(options_.models, is_amf))
+      messages_.say(DesignMessage{"DEPRECATED: AMF export is deprecated. Please use 3MF instead."});
+  }
+
   /// Notes the figures of the frame's design, and shows them unless they go to a file.
   void summarize(ModelExport& model, const DesignCamera& camera, Clock::time_point start) {
     summary_.camera = with_camera_of(camera, options_.camera).camera.value_or(Camera{});
@@ -108,6 +118,7 @@ class ModelRun {
     }
     ModelExport model(design, file.tree, options_.render.threads, options_.export_settings);
     for (const ModelOutput& output : options_.models) model.check(output.format);
+    if (frame == options_.first_frame) deprecate_formats();
     std::size_t told = 0;
     for (const ModelOutput& output : options_.models) {
       progress_.update("making the surface", -1);

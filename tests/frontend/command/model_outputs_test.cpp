@@ -62,6 +62,18 @@ TEST_F(ModelOutputs, SeveralAtOnce) {
   EXPECT_THAT(folder_.read("a.AMF"), HasSubstr("<amf"));
 }
 
+TEST_F(ModelOutputs, AmfIsDeprecatedOnceBy2026) {
+  const std::string scad = design("cube(2);");
+  const auto said = [&](const std::string& option) {
+    return run({option, "-o", folder_ / "a.amf", "-o", folder_ / "b.amf", scad});
+  };
+  const Environment language("SCADRAY_LANGUAGE", "2026");
+  EXPECT_EQ(said("--hardwarnings").err,
+            "DEPRECATED: AMF export is deprecated. Please use 3MF instead.\n");
+  EXPECT_EQ(said("-q").err, "");
+  EXPECT_EQ(said("--language=2021.01").err, "");
+}
+
 TEST_F(ModelOutputs, PlaneFigures) {
   const Said said = run({"-o", folder_ / "a.svg", "-o", folder_ / "a.dxf", "-o", folder_ / "a.pdf",
                          design("difference() { square(4); square(1); }")});
