@@ -78,6 +78,13 @@ struct ProjectionNode {
 /// What a color node sets: nothing if it says nothing.
 using NodeColor = std::optional<csgcore::Color>;
 
+/// Returns the colour within color(): the outermost one counts that has all of its channels.
+/// OpenSCAD takes those that are missing of the scheme.
+inline NodeColor inner_color(const NodeColor& outer, const NodeColor& own) {
+  const bool is_whole = outer && outer->r >= 0 && outer->g >= 0 && outer->b >= 0;
+  return is_whole ? outer : own;
+}
+
 /// Of a cube its box, of a polyhedron its faces. Nothing for a node whose arguments do not matter.
 using NodeData =
     std::variant<std::monostate, RoundNode, csgcore::Box, std::shared_ptr<const FaceSet>,

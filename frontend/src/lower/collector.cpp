@@ -31,16 +31,6 @@ constexpr std::string_view kBecauseTooLarge =
 constexpr std::string_view kBecauseTooSmall =
     "it is too small: scale the design to between 1e-90 and 1e90 across";
 
-/// Returns whether color() has set all of it: OpenSCAD takes the channels that are missing of the
-/// scheme.
-bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
-
-/// Returns the colour within color(): the outermost one counts that has all of its channels.
-std::optional<csgcore::Color> inner_color(const std::optional<csgcore::Color>& outer,
-                                          const std::optional<csgcore::Color>& own) {
-  return outer && is_whole(*outer) ? outer : own;
-}
-
 constexpr double kLargestSize = 0x1p300;
 static_assert(kLargestExponent == 300);
 
@@ -127,7 +117,8 @@ void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
 Collector::Collector(const DesignTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
       files(options.folder, polyhedra,
-            options.picture != PictureKind::kRendered || options.keeps_colors),
+            options.picture != PictureKind::kRendered || options.keeps_colors ||
+                GeometryDialect(options.language).keeps_colors),
       fonts(options.font_files),
       tree_(*tree.nodes),
       options_(options),
@@ -410,7 +401,8 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
       }
       return kNoPrimitive;
   }
-  primitive.color = context.in_leaf && !keeps_colors_ ? context.leaf_color : context.color;
+  const NodeColor& around = context.in_leaf && !keeps_colors_ ? context.leaf_color : context.color;
+  primitive.color = primitive.color ? inner_color(around, primitive.color) : around;
   boxes.push_back(box);
   fragments.push_back(count);
   frame_of.push_back(frame);

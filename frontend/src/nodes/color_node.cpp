@@ -3,6 +3,7 @@
 
 #include "language/color_names.hpp"
 #include "subtrees/node_row.hpp"
+#include "subtrees/solid_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -66,12 +67,22 @@ NodeColor read_color(NodeReader& reader) {
   return color_of_channels(channels);
 }
 
+SolidValue colored(SolidEvaluation& solids, uint32_t node) {
+  SolidValue result = combined(csgcore::Op::kUnion, solids.operands(node));
+  if (solids.keeps_colors()) {
+    const NodeColor& own = solids.data<NodeColor>(node);
+    for (SolidPart& part : result.parts) part.color = inner_color(own, part.color);
+  }
+  return result;
+}
+
 }  // namespace
 
 const NodeRow kColorRow{
     .role = Role::kOperation,
     .inner_parts = InnerParts::kOfMembers,
     .read = [](NodeReader& reader, const NodeSources&) -> NodeData { return read_color(reader); },
+    .solid = colored,
 };
 
 }  // namespace frontend

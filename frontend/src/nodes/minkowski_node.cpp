@@ -59,6 +59,7 @@ SolidValue sum_of_solids(SolidEvaluation& solids, uint32_t node) {
   SolidSum result;
   for (const int chords : {kChordsOfCutDisc, kChordsOfCutDisc / 3}) {
     result = sum_of(solids, all, chords);
+    for (SolidPart& part : result.parts) part.color.reset();
     if (result.failure.empty()) return union_of(std::move(result.parts));
   }
   solids.fail(result.failure);

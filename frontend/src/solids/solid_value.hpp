@@ -21,6 +21,8 @@ struct SolidPart {
   SupportSet body{};                // if there is no primitive
   /// The box of the corners that OpenSCAD has of it, in the coordinates around it.
   csgcore::Box box{};
+  /// What color() within the node that is evaluated gives it. Hulls and sums have none.
+  std::optional<csgcore::Color> color{};
 
   /// Returns whether it is known to be convex.
   bool is_convex() const;

@@ -14,7 +14,7 @@ namespace frontend {
 
 struct LoweredSubtree {
   struct Part {
-    csgcore::Primitive primitive;     // under its matrices, without a colour
+    csgcore::Primitive primitive;     // under its matrices, in the colour within the subtree
     uint32_t frame;                   // FrameTree
     csgcore::Box box;                 // of the corners that OpenSCAD's facets have, in the world
     csgcore::FacetSettings facets{};  // of what is round

@@ -97,6 +97,7 @@ SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
   if (fragments > 0 && sources_.polyhedra.facet(shape->primitive, fragments)) {
     part.primitive = std::move(shape->primitive);
   }
+  if (keeps_colors_) part.color = shape->color;
   return value_of(std::move(part));
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/geometry_dialect.hpp"
 #include "solids/figure_operations.hpp"
 #include "solids/figure_solids.hpp"
 #include "solids/solid_pool.hpp"
@@ -27,7 +28,8 @@ class SolidEvaluation {
         sources_(sources),
         figure_solids_(figure_solids),
         pool_(pool),
-        problems_(problems) {}
+        problems_(problems),
+        keeps_colors_(GeometryDialect(options.language).keeps_colors) {}
 
   /// Returns the root's solid in its own coordinates: a union, or what resize() has of a tree.
   /// Nothing if it cannot be found: failure() says why.
@@ -46,6 +48,8 @@ class SolidEvaluation {
   /// Returns parts whose union is the value, as far as that can be found (SolidUnion).
   std::vector<SolidPart> united(const SolidValue& value, int least_chords = kChordsOfCutDisc);
   SolidPool& pool() { return pool_; }
+  /// GeometryDialect::keeps_colors.
+  bool keeps_colors() const { return keeps_colors_; }
   /// Nothing more is evaluated.
   void fail(std::string_view why);
 
@@ -65,6 +69,7 @@ class SolidEvaluation {
   FigureSolids& figure_solids_;
   SolidPool& pool_;
   NodeProblems& problems_;
+  const bool keeps_colors_;
   uint32_t first_ = 0;              // the root of what is evaluated
   std::vector<SolidValue> values_;  // by node from that; one is moved to the node around it
   std::string_view failure_;

@@ -44,6 +44,7 @@ LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_wo
     for (Primitive& piece : pieces_of(part, pool, result.is_faceted)) {
       piece.local_to_world = compose(to_world, piece.local_to_world);
       piece.id = id;
+      piece.color = part.color;
       builder.primitive(static_cast<uint32_t>(result.parts.size()));
       result.parts.push_back({std::move(piece), frame, box});
     }

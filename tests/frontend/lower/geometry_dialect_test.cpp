@@ -94,6 +94,28 @@ TEST(GeometryDialect, AResizedSolidKeepsItsCutFaces) {
               ElementsAre("-", "-!"));
 }
 
+TEST(GeometryDialect, AResizedSolidKeepsItsColors) {
+  EXPECT_THAT(colors("resize([3,0,0]) {" + kColored + "}"), ElementsAre("100", "001!", "-!"));
+  EXPECT_THAT(colors("color([0,1,0]) { resize([3,0,0]) {" + kColored + "} }"),
+              ElementsAre("010", "010!", "010!"));
+  EXPECT_THAT(colors("resize([3,0,0]) {" + kColored + "}",
+                     newer({.picture = PictureKind::kRendered})),
+              ElementsAre("100", "001!", "-!"));
+  EXPECT_THAT(colors("resize([3,0,0]) {" + kColored + "}", {}), ElementsAre("-", "-", "-"));
+  EXPECT_THAT(colors("resize([3,0,0]) { color([0,1,0]) { color([1,0,0]) { cube(); } } }"),
+              ElementsAre("010"));
+}
+
+TEST(GeometryDialect, HullsAndSumsHaveNoColorsOfTheirParts) {
+  const std::string parts = "color([1,0,0]) { cube(); } color([0,0,1]) { cube(2); }";
+  EXPECT_THAT(colors("resize([3,0,0]) { hull() {" + parts + "} }"), ElementsAre("-"));
+  EXPECT_THAT(colors("hull() { color([1,0,0]) { cube(); } }"), ElementsAre("-"));
+  EXPECT_THAT(colors("minkowski() {" + parts + "}"), ElementsAre("-"));
+  EXPECT_THAT(colors("minkowski() { color([1,0,0]) { cube(); } }"), ElementsAre("100"));
+  EXPECT_THAT(colors("resize([3,0,0]) { color([0,1,0]) { hull() {" + parts + "} } }"),
+              ElementsAre("010"));
+}
+
 TEST(GeometryDialect, ALeafIsTranslucentWherePartOfItIs) {
   const csgcore::Scene scene =
       import_text("render() { union() { cube(); color([1,0,0,0.5]) { sphere(); } } }", newer())

@@ -127,9 +127,10 @@ TEST_F(ImporterFiles, HaveColorsWhereNoColorStandsAbove) {
   EXPECT_EQ(primitive("color([0, 0, 1]) { import(\"red.off\"); }", {.language = k2026}).color,
             blue);
   EXPECT_FALSE(primitive("import(\"red.off\");", {}).color) << "2021.01";
-  EXPECT_FALSE(
+  EXPECT_EQ(
       primitive("import(\"red.off\");", {.language = k2026, .picture = PictureKind::kRendered})
-          .color);
+          .color,
+      red);
   const Primitive faces = primitive("import(\"two.off\");", {.language = k2026});
   EXPECT_FALSE(faces.color);
   ASSERT_TRUE(faces.mesh());
