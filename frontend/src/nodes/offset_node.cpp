@@ -1,6 +1,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/geometry_dialect.hpp"
 #include "subtrees/node_row.hpp"
 #include "subtrees/plane_evaluation.hpp"
 
@@ -24,6 +25,7 @@ OffsetSettings read_offset(NodeReader& reader, const NodeSources& sources) {
   const csgcore::FacetSettings facets = chosen(sources, reader.facets());
   if (keeps_facets(sources.options, facets)) {
     result.fragments = csgcore::fragment_count(std::abs(result.distance), facets);
+    result.has_chord_for_rest = GeometryDialect(sources.options.language).has_chord_for_rest;
   }
   return result;
 }

@@ -76,7 +76,7 @@ LoweredSubtree roofed(const Extrusion& extrusion) {
   if (bounds.empty()) return {};
   const double reach = glm::length(bounds.max - bounds.min) / 2;
   const std::optional<SimplePolygons> outline =
-      united(figures, {kSmoothChords, kSmoothTolerance * reach}, CrossingCount::kCrossings);
+      united(figures, {kSmoothChords, kSmoothTolerance * reach});
   if (!outline) {
     extrusion.problems.add(extrusion.node, {" is left out: its edges cross too often",
                                             "let its outline not cross itself"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "plane/hull.hpp"
@@ -44,6 +45,23 @@ void add_arc(const Corner& corner, double distance, ProfileLoop& loop) {
   arc.control = corner.at;
   arc.end = corner.at + distance * corner.n_after;
   loop.push_back(arc);
+}
+
+/// Adds chords around the corner: each turns by a whole fragment, but for the last one. Inwards the
+/// way is that of the outline's other side, whose first chord is the last one here.
+void add_chords(const Corner& corner, const OffsetSettings& settings, ProfileLoop& loop) {
+  constexpr double kRounding = 0x1p-30;  // no chord is as short a share of the others
+  const double fragment = 2 * std::numbers::pi / *settings.fragments;
+  const int count = static_cast<int>(std::ceil(corner.turn() / fragment - kRounding));
+  const double distance = std::abs(settings.distance);
+  for (int i = 1; i < count; ++i) {
+    const bool is_outwards = settings.distance > 0;
+    const double turn = is_outwards ? i * fragment : (i - count) * fragment;
+    const Vec2& from = is_outwards ? corner.n_before : corner.n_after;
+    const Vec2 normal = std::cos(turn) * from + std::sin(turn) * Vec2(-from.y, from.x);
+    loop.push_back(line_to(corner.at + distance * normal));
+  }
+  loop.push_back(line_to(corner.at + distance * corner.n_after));
 }
 
 /// Cuts the corner square at that distance.
@@ -109,6 +127,32 @@ std::optional<Figure> rounded(const Figure& figure, double distance) {
     }));
   }
   return outline;
+}
+
+/// The offset with chords for round corners. Inwards it is what the outside, offset, leaves.
+std::optional<SimplePolygons> chorded(SimplePolygons polygons, const OffsetSettings& settings) {
+  Rectangle box = bounds_of(polygons);
+  const double distance = std::abs(settings.distance);
+  const bool is_inwards = settings.distance < 0;
+  if (box.empty()) return polygons;
+  box.min -= 2 * distance;
+  box.max += 2 * distance;
+  const Polygon around = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+  if (is_inwards) {
+    for (Polygon& polygon : polygons) std::reverse(polygon.begin(), polygon.end());
+    polygons.push_back(around);
+  }
+  Outline outline;
+  outline.fill_rule = FillRule::kNonZero;
+  for (const Polygon& polygon : polygons) {
+    outline.loops.push_back(outset(polygon, distance, [&](const Corner& corner, ProfileLoop& loop) {
+      add_chords(corner, settings, loop);
+    }));
+  }
+  const Figure figure = std::move(outline);
+  const std::optional<SimplePolygons> offset = united({&figure, 1});
+  if (!offset || !is_inwards) return offset;
+  return combined(csgcore::Op::kDifference, std::vector<SimplePolygons>{{around}, *offset});
 }
 
 Polygon moved(Polygon polygon, const Vec2& by) {
@@ -227,6 +271,12 @@ std::optional<std::vector<Figure>> offset(std::span<const Figure> figures,
   }
   const std::optional<SimplePolygons> polygons = united(figures);
   if (!polygons) return std::nullopt;
+  if (is_round && settings.fragments && settings.has_chord_for_rest) {
+    std::optional<SimplePolygons> outcome = chorded(*polygons, settings);
+    if (!outcome) return std::nullopt;
+    result.push_back(filled(std::move(*outcome)));
+    return result;
+  }
   result.push_back(filled(moved_outline(*polygons, settings.distance, settings.corners,
                                         settings.fragments.value_or(kChordsOfCircle))));
   return result;

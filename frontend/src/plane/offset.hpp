@@ -16,6 +16,7 @@ struct OffsetSettings {
   /// The chords of a whole circle where round corners are to be OpenSCAD's; else they are arcs if
   /// the offset goes outwards, and chords that no picture shows if it goes inwards.
   std::optional<int> fragments{};
+  bool has_chord_for_rest = false;  // GeometryDialect's
 };
 
 /// Returns figures whose union is the offset of the union of `figures`; nothing if edges cross too

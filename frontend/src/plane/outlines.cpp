@@ -96,11 +96,16 @@ bool cross_or_touch(const Segment& a, const Segment& b) {
   return divides(a, b) && divides(b, a);
 }
 
-/// Returns whether more than `most` pairs of segments have boxes that overlap, an upper bound of
-/// the crossings, or cross or touch, or whether that takes too long to tell.
+/// Whether pairs of segments count that cross or touch, or, of lines with a width, those whose
+/// boxes overlap.
+enum class Overlap : uint8_t { kSegments, kBoxes };
+
+/// Returns whether more than `most` pairs of segments overlap, or whether that takes too long to
+/// tell.
 bool overlap_more_than(std::vector<Segment> segments, uint64_t most,
-                       CrossingCount counted = CrossingCount::kBoxes) {
+                       Overlap overlap = Overlap::kSegments) {
   constexpr uint64_t kMostComparisons = 1 << 30;  // about a second
+  constexpr uint64_t kStepsOfCrossing = 8;  // to tell whether segments cross takes as long
   std::sort(segments.begin(), segments.end(),
             [](const Segment& a, const Segment& b) { return a.min.x < b.min.x; });
   uint64_t count = 0;
@@ -109,8 +114,9 @@ bool overlap_more_than(std::vector<Segment> segments, uint64_t most,
   for (const Segment& segment : segments) {
     std::erase_if(open, [&](const Segment* other) { return other->max.x < segment.min.x; });
     for (const Segment* other : open) {
-      const bool overlaps = other->min.y <= segment.max.y && segment.min.y <= other->max.y;
-      count += overlaps && (counted == CrossingCount::kBoxes || cross_or_touch(*other, segment));
+      if (other->min.y > segment.max.y || segment.min.y > other->max.y) continue;
+      steps += kStepsOfCrossing;
+      count += overlap == Overlap::kBoxes || cross_or_touch(*other, segment);
     }
     steps += open.size();
     if (count > most || steps > kMostComparisons) return true;
@@ -238,8 +244,7 @@ class Shortcuts {
 
 }  // namespace
 
-std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords,
-                                     CrossingCount counted) {
+std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords) {
   std::vector<Polygons> parts;
   std::vector<Segment> segments;
   Rectangle box;
@@ -248,7 +253,7 @@ std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chor
     add_segments(part, segments);
     box.merge(bounds_of(part));
   }
-  if (overlap_more_than(std::move(segments), kMostCrossings, counted)) return std::nullopt;
+  if (overlap_more_than(std::move(segments), kMostCrossings)) return std::nullopt;
   Grid grid(reach_of(box));
   ClipperLib::Paths all;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -309,7 +314,7 @@ bool crosses_itself(const Polygon& path, double width, uint64_t most) {
     segment.min -= width / 2;
     segment.max += width / 2;
   }
-  return overlap_more_than(std::move(segments), most);
+  return overlap_more_than(std::move(segments), most, Overlap::kBoxes);
 }
 
 std::optional<SimplePolygons> stroked(const Polygon& path, const StrokeSettings& settings) {

@@ -22,13 +22,8 @@ using SimplePolygons = Polygons;
 /// a second; OpenSCAD takes its time for any number.
 constexpr uint64_t kMostCrossings = 1 << 19;
 
-/// What is counted: pairs of edges whose boxes overlap, or those that cross or touch. Long edges
-/// side by side, as those of spikes, do the former alone.
-enum class CrossingCount : uint8_t { kBoxes, kCrossings };
-
 /// Returns the union of the figures; nothing if their edges cross too often (kMostCrossings).
-std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords = {},
-                                     CrossingCount counted = CrossingCount::kBoxes);
+std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords = {});
 
 /// Returns what the operation makes of the operands. Nothing if their edges cross too often.
 std::optional<SimplePolygons> combined(csgcore::Op op, std::span<const SimplePolygons> operands);

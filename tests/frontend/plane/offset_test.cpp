@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "plane/figure_area.hpp"
@@ -62,6 +65,53 @@ TEST(Offset, InFacetsIsOpenScads) {
       offset(std::vector<Figure>{rectangle(0, 0, 4, 4)}, {.distance = 1, .fragments = 8}).value();
   ASSERT_THAT(result, SizeIs(1));
   EXPECT_THAT(std::get<Outline>(result[0]).loops[0], SizeIs(12));
+}
+
+// The corners are those that OpenSCAD 2025.07.18 writes.
+TEST(Offset, TurnsByWholeChordsAndTheRest) {
+  const auto corners = [](const std::vector<Figure>& figures, double distance, int fragments) {
+    const std::vector<Figure> result =
+        offset(figures, {.distance = distance, .fragments = fragments, .has_chord_for_rest = true})
+            .value();
+    Polygon all;
+    for (const csgcore::ProfileLoop& loop : std::get<Outline>(result.at(0)).loops)
+      for (const csgcore::ProfileEdge& edge : loop) all.push_back(edge.end);
+    return all;
+  };
+  const auto holds = [](const Polygon& polygon, const Vec2& corner) {
+    return std::ranges::any_of(polygon,
+                               [&](const Vec2& at) { return glm::length(at - corner) < 1e-5; });
+  };
+  const std::vector<Figure> square{rectangle(0, 0, 5, 5)};
+  const Polygon outer = corners(square, 1, 5);
+  EXPECT_THAT(outer, SizeIs(12));
+  EXPECT_TRUE(holds(outer, {5.309017, 5.951057}));
+  EXPECT_TRUE(holds(outer, {-0.951057, 5.309017}));
+  EXPECT_THAT(corners(square, 1, 8), SizeIs(12)) << "nothing is left";
+  EXPECT_THAT(corners(square, 10, 30), SizeIs(36));
+  const std::vector<Figure> ring{
+      outline_of(Polygons{{{-4.5, -4.5}, {4.5, -4.5}, {4.5, 4.5}, {-4.5, 4.5}},
+                          {{-2.5, -2.5}, {-2.5, 2.5}, {2.5, 2.5}, {2.5, -2.5}}})};
+  const Polygon inner = corners(ring, -1, 5);
+  EXPECT_THAT(inner, SizeIs(16));
+  EXPECT_TRUE(holds(inner, {-2.809017, 3.451057}));
+  EXPECT_TRUE(holds(inner, {3.451057, 2.809017}));
+  EXPECT_TRUE(holds(inner, {3.5, 3.5}));
+}
+
+// Long edges side by side have boxes that overlap, but do not cross.
+TEST(Offset, OfThousandsOfSpikes) {
+  Polygon star;
+  for (int i = 0; i < 10'000; ++i) {
+    const double angle = 2 * kPi * i / 10'000, radius = i % 2 == 0 ? 100 : 60;
+    star.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  const std::vector<Figure> spikes{outline_of(Polygons{star})};
+  const auto area = [&](const OffsetSettings& settings) {
+    return area_of_union(offset(spikes, settings).value());
+  };
+  EXPECT_NEAR(area({.distance = 0.001, .fragments = 5, .has_chord_for_rest = true}),
+              area({.distance = 0.001, .fragments = 5}), 1);
 }
 
 TEST(MinkowskiSum, OfConvexPolygons) {
