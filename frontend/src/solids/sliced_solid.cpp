@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -377,25 +378,32 @@ Slicing openscad_slicing(double slices, const std::optional<double>& segments,
 Slicing cut_slicing(const TwistedLayers& layers, double slices,
                     const std::optional<double>& segments, const csgcore::FacetSettings& facets,
                     SimplePolygons outline) {
-  constexpr double kLeastSegment = 0.01;  // OpenSCAD's limit of $fs
+  constexpr double kLeastSegment = 0.01;          // OpenSCAD's limit of $fa and $fs
+  constexpr double kBelowRounding = 1 - 0x1p-40;  // a turned edge is as long as it was
   const int layer_count = affordable_slices(slices, edge_count(outline));
   const std::optional<double> asked =
       segments || !(facets.fn > 0) ? segments : std::optional(facets.fn);
-  const auto segments_by_size = [&](const std::vector<double>& lengths) {
-    std::vector<int> count;
+  const auto total_of = [](const std::vector<int>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+  };
+  // A polygon has the fewer of those that $fs and $fa ask for.
+  const auto segments_by_settings = [&](const std::vector<double>& lengths) {
+    std::vector<int> by_size;
     for (const double length : lengths) {
-      const double wanted = std::ceil(length / std::max(facets.fs, kLeastSegment));
-      count.push_back(static_cast<int>(std::clamp(wanted, 1.0, kMostSegments)));
+      const double wanted = std::ceil(length * kBelowRounding / std::max(facets.fs, kLeastSegment));
+      by_size.push_back(static_cast<int>(std::clamp(wanted, 1.0, kMostSegments)));
     }
-    return count;
+    const double around = std::ceil(360 / std::max(facets.fa, kLeastSegment));
+    const std::vector<int> by_angle = segments_of(lengths, std::min(around, kMostSegments));
+    return total_of(by_size) <= total_of(by_angle) ? by_size : by_angle;
   };
   std::vector<std::vector<int>> counts;
   double total = 0;
   for (const Polygon& polygon : outline) {
     const std::vector<double> lengths = longest_images(layers, layer_count, polygon);
     counts.push_back(asked ? segments_of(lengths, std::min(*asked, kMostSegments))
-                           : segments_by_size(lengths));
-    for (const int count : counts.back()) total += count;
+                           : segments_by_settings(lengths));
+    total += total_of(counts.back());
   }
   // Rather fewer segments than fewer slices.
   const double share = std::min(1.0, kMostSideTriangles / (2 * total * layer_count));

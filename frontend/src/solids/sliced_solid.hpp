@@ -68,9 +68,9 @@ Slicing openscad_slicing(double slices, const std::optional<double>& segments,
                          SimplePolygons outline);
 
 /// Returns the slices of OpenSCAD's development snapshots, with edges cut into ⌈L/$fs⌉ pieces,
-/// where L is the length of the longest image that the edge has in a layer; or for $fn > 0, or
-/// where `segments` are given, so many for each polygon as openscad_slicing() has, by these
-/// lengths.
+/// where L is the length of the longest image that the edge has in a layer; or for $fn > 0, where
+/// `segments` are given, or where a polygon gets fewer by ⌈360/$fa⌉ segments, as many of them as
+/// openscad_slicing() has, by these lengths.
 Slicing cut_slicing(const TwistedLayers& layers, double slices,
                     const std::optional<double>& segments, const csgcore::FacetSettings& facets,
                     SimplePolygons outline);

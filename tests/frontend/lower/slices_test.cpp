@@ -82,6 +82,10 @@ TEST(CutSlicing, EdgesOfTwistedExtrusionsAreCut) {
   EXPECT_THAT(pieces_of(90, {3, 1}), ElementsAre(4, 5));
   EXPECT_THAT(pieces_of(200, {2, 1}), ElementsAre(5, 3));
   EXPECT_THAT(pieces_of(30, {1, 1}, {}, 4), ElementsAre(1, 1));
+  // A turned edge is as long as it was.
+  EXPECT_THAT(pieces_of(30, {1, 1}, {0, 5, 0.5}), ElementsAre(10, 6));
+  EXPECT_THAT(pieces_of(30, {1, 1}, {0, 12, 0.1}), ElementsAre(9, 6));
+  EXPECT_THAT(pieces_of(30, {1, 1}, {0, 60, 0.1}), ElementsAre(2, 1));
   // No more slices are lost than edges can be cut without.
   EXPECT_THAT(pieces_of(90, {1, 1}, {0, 12, 1e-9}), testing::Each(testing::Le(1u << 16)));
 }
