@@ -18,6 +18,8 @@ struct ImportedDesign {
   /// the corners of the (faceted) leaf's local box under its matrix, `%` and `#` parts included
   /// (frontend/OPENSCAD.md, "Camera"). Empty for an empty design.
   csgcore::Box view_box;
+  /// How far the axes are drawn, in distances of the camera.
+  double axes_reach = 1;
   /// Primitive nodes in the file, empty, invalid and `%` ones included.
   uint32_t primitive_nodes = 0;
   /// The leaves of OpenSCAD's preview (frontend/OPENSCAD.md, "Leaves") that are drawn, and those of

@@ -417,6 +417,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   LeafBoxes boxes = boxes_of_leaves(collected, leaves, options.measures_leaves, decides);
   const std::vector<Box> thick =
       boxes_of_thick_plates(dialect.figure_thickness, collected, leaves, boxes.seen);
+  design.axes_reach = dialect.axes_reach;
   design.view_box = view_box(trees, thick.empty() ? boxes.seen : thick, dialect.intersects_boxes);
   if (!collected.plane_leaves.empty()) {
     thicken_cutting_plates(options.picture, trees, collected, leaves, boxes);

@@ -137,10 +137,10 @@ std::string number_text(double value) {
 
 }  // namespace
 
-void draw_axes(LinePainter& painter, const Camera& camera) {
+void draw_axes(LinePainter& painter, double reach) {
   for (const Vec3& axis : kAxes) {
-    painter.draw(Vec3(0.0), camera.distance * axis);
-    painter.draw(Vec3(0.0), -camera.distance * axis, LineStyle::kStippled);
+    painter.draw(Vec3(0.0), reach * axis);
+    painter.draw(Vec3(0.0), -reach * axis, LineStyle::kStippled);
   }
 }
 

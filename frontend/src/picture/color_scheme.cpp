@@ -18,7 +18,10 @@ constexpr ColorScheme scheme(const char* name, uint32_t background, uint32_t fro
 }
 
 // ClearSky is Cornfield before a gradient (OpenSCAD's pull request 4167), whose colours the preview
-// of the IntelliJ plugin com.javampire.openscad has.
+// of the IntelliJ plugin com.javampire.openscad has. So has it the Gems' backgrounds; their faces and
+// axes are among the themes of the editor BelfrySCAD. What is cut, crosshairs and flat figures have
+// the colours of Cornfield and Starnight there: those of the Gems are published nowhere but in
+// OpenSCAD itself.
 constexpr std::array kSchemes = {
     scheme("Cornfield", 0xffffe5, 0xf9d72c, 0x9dcb51, 0x000000, 0x800000, 0x00bf99, 0xff0000),
     scheme("Metallic", 0xaaaaff, 0xddddff, 0xdd22dd, 0x222233, 0x800000, 0x00bf99, 0xff0000),
@@ -26,6 +29,8 @@ constexpr std::array kSchemes = {
     scheme("Starnight", 0x000000, 0xffffe0, 0x00ffff, 0xe5e5e5, 0xf0f0f0, 0x9370db, 0xff00ff),
     scheme("BeforeDawn", 0x333333, 0xcccccc, 0x5563dd, 0xc1c1c1, 0xf0f0f0, 0x00bf99, 0xff0000),
     scheme("Nature", 0xfafafa, 0x16a085, 0xdbf4da, 0x323232, 0x111111, 0x00bf99, 0xff0000),
+    scheme("Daylight Gem", 0xf0f0f0, 0x02daf7, 0x9dcb51, 0x373947, 0x800000, 0x00bf99, 0xff0000),
+    scheme("Nocturnal Gem", 0x0c0c0c, 0x02daf7, 0x9dcb51, 0xa7a9b7, 0xf0f0f0, 0x9370db, 0xff00ff),
     scheme("DeepOcean", 0x333333, 0xeeeeee, 0x0babc8, 0xc1c1c1, 0xf0f0f0, 0x9370db, 0xff00ff),
     scheme("Solarized", 0xfdf6e3, 0xb58800, 0x882233, 0x191816, 0x800000, 0x6c71c4, 0xb58800),
     scheme("Tomorrow", 0xf8f8f8, 0x4271ae, 0xf5871f, 0x181818, 0x8959a8, 0x718c00, 0xc82829),

@@ -60,8 +60,8 @@ class LinePainter {
   double distance_;
 };
 
-/// Draws the world's axes from −camera.distance to +camera.distance, the negative halves stippled.
-void draw_axes(LinePainter& painter, const Camera& camera);
+/// Draws the world's axes so far from the origin to both sides, the negative halves stippled.
+void draw_axes(LinePainter& painter, double reach);
 
 /// Draws the red, green and blue axes in the lower left corner, over everything.
 void draw_gnomon(Canvas& canvas, const csgcore::View& view, Rgb label_color);

@@ -42,7 +42,7 @@ void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camer
     LinePainter painter(canvas, view, camera);
     if (overlays.crosshairs) draw_crosshairs(painter, camera);
     canvas.set_color(scheme.axes);
-    if (overlays.axes) draw_axes(painter, camera);
+    if (overlays.axes) draw_axes(painter, design.axes_reach * camera.distance);
     if (overlays.axes && overlays.scales) draw_scale_marks(painter, camera);
   }
   if (overlays.axes && overlays.has_gnomon) draw_gnomon(canvas, view, scheme.axes);

@@ -42,7 +42,7 @@ class Overlay : public testing::Test {
     scheme.background = {254, 254, 254};
     scheme.axes = kAxesColor;
     scheme.crosshair = kCrosshairColor;
-    draw_overlays(image, make_view(camera_, options_), camera_, overlays_, scheme, {});
+    draw_overlays(image, make_view(camera_, options_), camera_, overlays_, scheme, design_);
   }
 
   static char letter(const std::array<uint8_t, 3>& c) {
@@ -68,6 +68,7 @@ class Overlay : public testing::Test {
   Camera camera_;
   CameraOptions options_;
   Overlays overlays_{.axes = true};
+  ImportedDesign design_;
   static constexpr float kMiss = std::numeric_limits<float>::infinity();
 };
 
@@ -77,6 +78,20 @@ TEST_F(Overlay, PositiveHalvesAreSolidAndNegativeOnesStippled) {
       << "the stipple starts with 3 pixels off at the origin";
   EXPECT_EQ(column(image, 255, 246, 272), "###########..###...###...#");
   EXPECT_EQ(row(image, 256, 504, 512), "########") << "up to the edge";
+}
+
+TEST_F(Overlay, AxesReachAsFarAsTheDesignSays) {
+  // The y axis goes away from the eye, towards its vanishing point.
+  camera_.rotation_deg = {70, 0, 20};
+  const auto pixels = [&] {
+    const Image image = draw(kMiss);
+    std::string all;
+    for (uint32_t y = 0; y < image.height_px; ++y) all += row(image, y, 0, image.width_px);
+    return std::count(all.begin(), all.end(), '#');
+  };
+  const auto near = pixels();
+  design_.axes_reach = 100;
+  EXPECT_GT(pixels(), near + 20);
 }
 
 TEST_F(Overlay, GnomonInTheCornerHasColorsAndLetters) {

@@ -6,8 +6,8 @@ import { make } from './dom';
 import type { Preview } from './preview';
 
 export const colorSchemes = [
-  'Cornfield', 'Metallic', 'Sunset', 'Starnight', 'BeforeDawn', 'Nature', 'DeepOcean', 'Solarized', 'Tomorrow',
-  'Tomorrow Night', 'ClearSky', 'Monotone',
+  'Cornfield', 'Metallic', 'Sunset', 'Starnight', 'BeforeDawn', 'Nature', 'Daylight Gem', 'Nocturnal Gem', 'DeepOcean',
+  'Solarized', 'Tomorrow', 'Tomorrow Night', 'ClearSky', 'Monotone',
 ];
 
 const directions: StandardView[] = ['top', 'bottom', 'front', 'back', 'left', 'right', 'diagonal'];
