@@ -415,12 +415,13 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   }
 }
 
-/// Throws Error for a --backend that OpenSCAD has not; there is no other use of it.
-void read_backend(const Arguments& arguments) {
+/// Tells of a --backend that OpenSCAD has not, as it does; there is no other use of it.
+void read_backend(const Arguments& arguments, Options& options) {
   if (!arguments.has("backend")) return;
   const std::string& value = arguments.text("backend");
   if (!find_word(kBackends, lower_case(value))) {
-    bad_value("backend", value, "give " + listed(kBackends));
+    options.warnings.push_back("--backend=" + value + " is not known, and has no effect (give " +
+                               listed(kBackends) + ")");
   }
 }
 
@@ -467,7 +468,7 @@ Options parse_options(const std::vector<std::string>& words) {
   read_render(arguments, options.render);
   read_summary(arguments, options);
   read_outputs(arguments, options);
-  read_backend(arguments);
+  read_backend(arguments, options);
   for (const std::string& setting : arguments.texts("O")) {
     const std::string fault = read_export_setting(setting, options.export_settings);
     if (!fault.empty()) options.warnings.push_back(fault);

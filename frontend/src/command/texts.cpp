@@ -91,8 +91,8 @@ class TextRun {
     const std::string advice =
         advice_of_language(options_.input, options, evaluation.outcome, view_of(text_));
     if (!advice.empty() && !options_.quiet) messages_.say("", advice);
-    if (evaluation.outcome == language::Outcome::kNotParsed ||
-        evaluation.outcome == language::Outcome::kUnreadable) {
+    if (evaluation.outcome != language::Outcome::kDone &&
+        evaluation.outcome != language::Outcome::kAborted) {
       return false;
     }
     if (output_.kind == TextKind::kParam) {

@@ -108,7 +108,7 @@ std::string advice_of_language(const std::string& path, language::EvaluationOpti
                                language::Outcome outcome,
                                const std::optional<std::string_view>& text) {
   const bool has_failed =
-      outcome == language::Outcome::kAborted || outcome == language::Outcome::kNotParsed;
+      outcome != language::Outcome::kDone && outcome != language::Outcome::kUnreadable;
   const bool is_read_once = path == "-" && !text;
   if (!has_failed || is_read_once || options.language == language::LanguageVersion::k2021)
     return {};

@@ -80,6 +80,19 @@ class EvaluatedDesign : public testing::Test {
   Environment no_openscad_{"OPENSCAD", "/nonexistent/openscad"};
 };
 
+TEST_F(EvaluatedDesign, AHardWarningFailsIn2026) {
+  const std::string scad = design("cube(1); echo(x);");
+  const auto code = [&](const std::string& language, const std::string& output) {
+    return run({"--language=" + language, "--hardwarnings", "-o", folder_ / output, scad}).code;
+  };
+  EXPECT_EQ(code("2026", "new.csg"), ExitCode::kFailure);
+  EXPECT_FALSE(folder_.has("new.csg"));
+  EXPECT_EQ(code("2026", "new.echo"), ExitCode::kFailure);
+  EXPECT_THAT(folder_.read("new.echo"), StartsWith("WARNING: Ignoring unknown variable"));
+  EXPECT_EQ(code("2021.01", "old.csg"), ExitCode::kDone);
+  EXPECT_EQ(folder_.read("old.csg"), "\n");
+}
+
 TEST_F(EvaluatedDesign, WritesItsTree) {
   const Said said = run({"-o", folder_ / "x.csg", design("echo(1); cube(2, center = 1);")});
   EXPECT_EQ(said.code, ExitCode::kDone);

@@ -110,6 +110,21 @@ TEST(Parser, NestsDeeperThan2021) {
   EXPECT_NE(said_2021(nested(30'000)).find("memory exhausted"), std::string::npos);
 }
 
+// What users of the snapshots of 2026 report shows it; 2025.07.18 for node shows whole paths.
+TEST(Paths, AreShownFromTheMainFilesFolder) {
+  const BesideFiles files = {{"sub/lib.scad", "include <more.scad>\nmodule m() cube(b = 1);"},
+                             {"sub/more.scad", "module n() { echo(1 + \"a\"); m(); }"}};
+  const std::string program = "use <sub/lib.scad>\nn();";
+  EXPECT_EQ(said_2026(program, files),
+            "WARNING: undefined operation (number + string) in file sub/more.scad, line 1\n"
+            "ECHO: undef\n"
+            "WARNING: variable \"b\" not specified as parameter in file sub/lib.scad, line 2\n");
+  EXPECT_EQ(said_2021(program, files),
+            "WARNING: undefined operation (number + string) in file more.scad, line 1\n"
+            "ECHO: undef\n"
+            "WARNING: variable b not specified as parameter in file lib.scad, line 2\n");
+}
+
 TEST(Parameters, AreWrittenAsJson) {
   const auto parameters = customizer_parameters(
       "// width of it\nwidth = 10; // [1:20]\n/* [A] */\ns = \"x\"; // [x:Ex, y]\nname = \"n\"; // "

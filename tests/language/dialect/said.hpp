@@ -28,7 +28,10 @@ inline Said evaluated(const std::string& program, const EvaluationOptions& optio
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("dialect-test-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
-  for (const auto& [name, text] : files) std::ofstream(folder / name) << text;
+  for (const auto& [name, text] : files) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  }
   std::ofstream(folder / "design.scad") << program;
   Said said;
   const Evaluation evaluation =

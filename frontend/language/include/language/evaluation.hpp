@@ -69,6 +69,7 @@ enum class Outcome : uint8_t {
   kDone,
   kAborted,     // by an assertion, endless recursion or a hard warning: the tree is empty, or has
                 // in 2026's dialect the nodes of the top level's statements that had ended
+  kRefused,     // by a hard warning in 2026's dialect, where the program then fails; as kAborted
   kNotParsed,   // a syntax error in the main file, or in what it includes
   kUnreadable,  // the main file cannot be read
 };

@@ -94,6 +94,8 @@ class Dialect : public VersionTable {
   /// Whether an evaluation that is aborted leaves the nodes of those statements of the top level
   /// that had ended.
   const bool keeps_nodes_of_aborted = row(false, true);
+  /// Whether the program fails after a hard warning, and writes no tree.
+  const bool fails_by_hard_warnings = row(false, true);
   /// Whether traces name assignments, and the parameters of modules.
   const bool has_full_traces = row(false, true);
 

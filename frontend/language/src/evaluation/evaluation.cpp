@@ -123,7 +123,9 @@ void Session::take(const Message& message) {
     throw TooLarge("The design's messages take too much memory: more than 64 MiB");
   sink_({message.line, message.place, program_->files, message.group, message.text});
   if (!machine_) return;
-  if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
+  if (!options_.hard_warnings || message.group != MessageGroup::kWarning) return;
+  if (program_->dialect.fails_by_hard_warnings) result_.outcome = Outcome::kRefused;
+  throw HardWarning();
 }
 
 void Session::abort() {
@@ -257,7 +259,7 @@ void Session::run_program(Machine& machine) {
     machine.run_calls();
   } catch (const Aborted&) {
     if (program_->dialect.keeps_nodes_of_aborted) {
-      result_.outcome = Outcome::kAborted;
+      if (result_.outcome != Outcome::kRefused) result_.outcome = Outcome::kAborted;
       machine.remove_open_nodes();
     } else {
       abort();
