@@ -18,10 +18,10 @@ using csgcore::Primitive;
 
 constexpr language::ArgumentName kLinearExtrudeLabel[] = {"height", "twist", "scale"};
 
-/// A number of at least 1, without its fraction.
-std::optional<double> count_of(NodeReader& reader, language::ArgumentName name) {
+/// A number of at least `least`, without its fraction.
+std::optional<double> count_of(NodeReader& reader, language::ArgumentName name, double least) {
   const std::optional<double> value = reader.number(name);
-  if (!value || !(*value >= 1) || !std::isfinite(*value)) return std::nullopt;
+  if (!value || !(*value >= least) || !std::isfinite(*value)) return std::nullopt;
   return std::trunc(*value);
 }
 
@@ -127,8 +127,8 @@ LinearExtrudeArguments read_linear_extrude(NodeReader& reader) {
   const double twist = reader.number("twist").value_or(0);
   if (std::isfinite(twist)) result.twist = twist;
   result.top_scale = read_top_scale(reader);
-  result.slices = count_of(reader, "slices");
-  result.segments = count_of(reader, "segments");
+  result.slices = count_of(reader, "slices", 1);
+  result.segments = count_of(reader, "segments", 0);
   return result;
 }
 

@@ -43,6 +43,17 @@ TEST(GeometryDialect, AChordErrorReplacesAnglesAndSizes) {
   EXPECT_NEAR(height("$fn = 5, $fa = 12, $fs = 2, $fe = 1"), 10 * std::cos(M_PI / 5), 1e-9);
 }
 
+TEST(GeometryDialect, NoSegmentsCutNoEdges) {
+  const auto corners = [](const std::string& settings) {
+    const ImportedDesign design = import_text(
+        "linear_extrude(height = 9, twist = 90, slices = 2, " + settings + ") { square(4); }",
+        newer());
+    return design.scene.primitives.at(0).mesh()->vertices().size();
+  };
+  EXPECT_EQ(corners("segments = 0"), 3 * 4u);
+  EXPECT_EQ(corners("$fn = 8, $fa = 12, $fs = 2"), 3 * 8u);
+}
+
 /// The colours of the primitives: r, g, b as one digit each; "-" without one; "!" behind a cut
 /// face.
 std::vector<std::string> colors(const std::string& text, ImportOptions options = newer()) {
@@ -98,9 +109,9 @@ TEST(GeometryDialect, AResizedSolidKeepsItsColors) {
   EXPECT_THAT(colors("resize([3,0,0]) {" + kColored + "}"), ElementsAre("100", "001!", "-!"));
   EXPECT_THAT(colors("color([0,1,0]) { resize([3,0,0]) {" + kColored + "} }"),
               ElementsAre("010", "010!", "010!"));
-  EXPECT_THAT(colors("resize([3,0,0]) {" + kColored + "}",
-                     newer({.picture = PictureKind::kRendered})),
-              ElementsAre("100", "001!", "-!"));
+  EXPECT_THAT(
+      colors("resize([3,0,0]) {" + kColored + "}", newer({.picture = PictureKind::kRendered})),
+      ElementsAre("100", "001!", "-!"));
   EXPECT_THAT(colors("resize([3,0,0]) {" + kColored + "}", {}), ElementsAre("-", "-", "-"));
   EXPECT_THAT(colors("resize([3,0,0]) { color([0,1,0]) { color([1,0,0]) { cube(); } } }"),
               ElementsAre("010"));
