@@ -120,8 +120,10 @@ class Revolving {
   /// Returns the bounds of the result in the plane; nothing if it stands on both sides of the axis.
   std::optional<Rectangle> reach_of_figures() const {
     const Rectangle reach = positive_bounds(extrusion_.figures);
-    if (!(reach.min.x < 0 && reach.max.x > 0)) return reach;
-    // What the operations leave may still be on one side.
+    const bool are_on_one_side = !(reach.min.x < 0 && reach.max.x > 0);
+    const bool counts_sections = data_.is_faceted && !is_union(extrusion_.figures.tree);
+    if (are_on_one_side && !counts_sections) return reach;
+    // What the operations leave may still be on one side, and tells the number of sections.
     const std::optional<SimplePolygons> outline = united(extrusion_.outcome());
     if (!outline) {
       note_crossings();

@@ -18,9 +18,9 @@ constexpr ColorScheme scheme(const char* name, uint32_t background, uint32_t fro
 }
 
 // ClearSky is Cornfield before a gradient (OpenSCAD's pull request 4167), whose colours the preview
-// of the IntelliJ plugin com.javampire.openscad has. So has it the Gems' backgrounds; their faces and
-// axes are among the themes of the editor BelfrySCAD. What is cut, crosshairs and flat figures have
-// the colours of Cornfield and Starnight there: those of the Gems are published nowhere but in
+// of the IntelliJ plugin com.javampire.openscad has. So has it the Gems' backgrounds; their faces
+// and axes are among the themes of the editor BelfrySCAD. What is cut, crosshairs and flat figures
+// have the colours of Cornfield and Starnight there: those of the Gems are published nowhere but in
 // OpenSCAD itself.
 constexpr std::array kSchemes = {
     scheme("Cornfield", 0xffffe5, 0xf9d72c, 0x9dcb51, 0x000000, 0x800000, 0x00bf99, 0xff0000),

@@ -105,7 +105,7 @@ enum class Overlap : uint8_t { kSegments, kBoxes };
 bool overlap_more_than(std::vector<Segment> segments, uint64_t most,
                        Overlap overlap = Overlap::kSegments) {
   constexpr uint64_t kMostComparisons = 1 << 30;  // about a second
-  constexpr uint64_t kStepsOfCrossing = 8;  // to tell whether segments cross takes as long
+  constexpr uint64_t kStepsOfCrossing = 8;        // to tell whether segments cross takes as long
   std::sort(segments.begin(), segments.end(),
             [](const Segment& a, const Segment& b) { return a.min.x < b.min.x; });
   uint64_t count = 0;

@@ -233,5 +233,17 @@ TEST(ImportFacets, ARevolutionWithAStartHasItsSectionsRoundedUp) {
   EXPECT_EQ(corners("angle = 108, start = 30"), 4u * 4);
 }
 
+TEST(ImportFacets, ARevolutionHasTheSectionsOfWhatItsOperationsLeave) {
+  ImportOptions options;
+  options.facets = Facets::kAll;
+  const ImportedDesign design = import_text(
+      "rotate_extrude($fa = 12, $fs = 2) { difference() { polygon([[6, 0], [8, 0], [8, 2], [6, "
+      "2]]);"
+      "polygon([[7, -1], [9, -1], [9, 3], [7, 3]]); } }",
+      options);
+  // ⌈2π·7/2⌉ = 22 sections, and not ⌈2π·8/2⌉ = 26.
+  EXPECT_EQ(design.scene.primitives.at(0).mesh()->vertices().size(), 22u * 4);
+}
+
 }  // namespace
 }  // namespace frontend

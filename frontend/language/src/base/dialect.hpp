@@ -123,8 +123,8 @@ class Dialect : public VersionTable {
       row(std::array<double, 3>{2021, 1, 0}, std::array<double, 3>{2025, 7, 18});
   /// Whether the place is said where a file that is included or used cannot be opened.
   const bool tells_place_of_missing_files = row(false, true);
-  /// Whether the paths in all messages of an evaluation are relative to the main file's folder; else
-  /// in some to that of the used file whose code is being evaluated.
+  /// Whether the paths in all messages of an evaluation are relative to the main file's folder;
+  /// else in some to that of the used file whose code is being evaluated.
   const bool shows_paths_from_main_file = row(false, true);
 
   /// Whether $vpt, $vpr and $vpd are the camera of the command line when a design begins; else they
