@@ -37,7 +37,7 @@ constexpr size_t kMostSums = 200000;
 constexpr size_t kMostWork = size_t{1} << 22;
 
 /// So many triangles are cut in about two seconds, where there is no other way, or at once.
-constexpr size_t kMostCutTriangles = size_t{1} << 18, kFewCutTriangles = size_t{1} << 13;
+constexpr size_t kMostCutTriangles = size_t{1} << 18, kFewCutTriangles = size_t{1} << 15;
 
 Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
 
