@@ -155,6 +155,32 @@ std::optional<SimplePolygons> chorded(SimplePolygons polygons, const OffsetSetti
   return combined(csgcore::Op::kDifference, std::vector<SimplePolygons>{{around}, *offset});
 }
 
+/// Returns how many whole turns the round corners of the offset inwards make together.
+double turns_inwards(const SimplePolygons& polygons) {
+  double turns = 0;
+  for (const Polygon& polygon : polygons) {
+    const size_t count = polygon.size();
+    for (size_t i = 0; i < count; ++i) {
+      const Vec2 in = polygon[i] - polygon[(i + count - 1) % count];
+      const Vec2 out = polygon[(i + 1) % count] - polygon[i];
+      turns += std::max(0.0, std::atan2(-cross(in, out), glm::dot(in, out)));
+    }
+  }
+  return turns / (2 * std::numbers::pi);
+}
+
+/// Returns the numbers of chords to try, the first of which that does not cross too often counts.
+/// None: the library's offset is as good.
+std::vector<int> chords_to_try(const SimplePolygons& polygons, const OffsetSettings& settings) {
+  if (settings.corners != CornerStyle::kRound) return {};
+  if (settings.fragments)
+    return settings.has_chord_for_rest ? std::vector{*settings.fragments} : std::vector<int>{};
+  // The library takes seconds for more that cross each other, as those between spikes do.
+  constexpr double kManyChords = 1 << 17;
+  if (turns_inwards(polygons) * kChordsOfCircle <= kManyChords) return {};
+  return {kChordsOfCircle, 24, 6};
+}
+
 Polygon moved(Polygon polygon, const Vec2& by) {
   for (Vec2& point : polygon) point += by;
   return polygon;
@@ -271,12 +297,16 @@ std::optional<std::vector<Figure>> offset(std::span<const Figure> figures,
   }
   const std::optional<SimplePolygons> polygons = united(figures);
   if (!polygons) return std::nullopt;
-  if (is_round && settings.fragments && settings.has_chord_for_rest) {
-    std::optional<SimplePolygons> outcome = chorded(*polygons, settings);
-    if (!outcome) return std::nullopt;
-    result.push_back(filled(std::move(*outcome)));
-    return result;
+  const std::vector<int> choices = chords_to_try(*polygons, settings);
+  for (const int chords : choices) {
+    OffsetSettings tried = settings;
+    tried.fragments = chords;
+    if (std::optional<SimplePolygons> outcome = chorded(*polygons, tried)) {
+      result.push_back(filled(std::move(*outcome)));
+      return result;
+    }
   }
+  if (!choices.empty()) return std::nullopt;
   result.push_back(filled(moved_outline(*polygons, settings.distance, settings.corners,
                                         settings.fragments.value_or(kChordsOfCircle))));
   return result;
