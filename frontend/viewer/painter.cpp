@@ -38,7 +38,7 @@ constexpr double kMostOfPicture = 0.5;
 constexpr double kWholeShare = 0.85;
 
 /// The directions of the studio's light in the first picture that has it, and in the last.
-constexpr uint32_t kFewDirections = csgcore::kLeastDirections, kManyDirections = 256;
+constexpr uint32_t kFewDirections = csgcore::kFewDirections, kManyDirections = 256;
 
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {

@@ -176,7 +176,7 @@ TEST_F(PainterTest, LightsAStudioInSteps) {
   PaintOrder final = order, lit = order, colors = order;
   final.settings.samples = lit.settings.samples = frontend::kStudioSamples;
   final.settings.studio.shares_light = false;
-  lit.settings.studio.directions = 64;
+  lit.settings.studio.directions = csgcore::kFewDirections;
   colors.settings.studio = {0, 0, 0};
   for (const bool is_moving : {false, true}) {
     std::vector<csgcore::Image> steps;

@@ -10,8 +10,8 @@
 
 namespace csgcore {
 
-/// What StudioSettings::directions is a multiple of.
-constexpr uint32_t kLeastDirections = 64;
+/// StudioSettings::directions of a first picture: fewer show in hollows.
+constexpr uint32_t kFewDirections = 180;
 
 /// What finish_studio() does.
 struct StudioSettings {
@@ -19,10 +19,11 @@ struct StudioSettings {
   double shadows = 1;    // of the key light
   double occlusion = 1;  // of what comes from all around
   double edges = 1;      // lines where faces meet or end
-  /// The directions of the whole sky that are asked. A quarter as many go to the key light.
+  /// The directions of the whole sky that are asked. A quarter as many go to the key light, or
+  /// a ninth if light is shared.
   uint32_t directions = 256;
   /// Whether neighbouring pixels ask parts of them for each other, where the same face goes on:
-  /// faster, but light is smoothed over 5 × 5 blocks.
+  /// faster, but light is smoothed over 3 × 3 blocks.
   bool shares_light = true;
   /// Where the picture is made smaller afterwards: the side of the squares of pixels that become
   /// one, which share their light as far as they show the same face. At least 1.

@@ -123,7 +123,7 @@ class EdgeVisitor::Batch {
     RayPacket packet;
     make_rays(owner_.frame_, laterals_, packet);
     PacketHits hits;
-    const TraceList& list = rays_.trace(packet, kAllLanes >> (kPacketRays - size_), hits);
+    const TraceList& list = rays_.trace(packet, kAllLanes >> (kPacketRays - size_), nullptr, hits);
     PacketColors colors;
     shade_packet(owner_.sink_.shade(), owner_.frame_, packet, list, hits, colors);
     for (uint32_t lane = 0; lane < size_; ++lane) add_sample(hits, colors, lane);

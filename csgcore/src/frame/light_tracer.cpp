@@ -189,14 +189,19 @@ class LightTracer::Rays final : public TileVisitor {
     make_rays(frame_, laterals, ray_packet);
     const LaneMask lanes =
         packet.size() == kPacketRays ? kAllLanes : (LaneMask{1} << packet.size()) - 1;
-    PacketHits hits;
-    rays.trace(ray_packet, lanes, hits);
-    for (uint32_t lane = 0; lane < packet.size(); ++lane) {
+    // What lies at a point's own face or behind it leaves the point in the light.
+    PacketLimits limits;
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
       const Vec3 origin{ray_packet.origin[0][lane], ray_packet.origin[1][lane],
                         ray_packet.origin[2][lane]};
-      const double depth = hits.t[lane] + glm::dot(origin, frame_.view.forward);
+      limits.last_t[lane] = packet[lane < packet.size() ? lane : 0].least_depth -
+                            glm::dot(origin, frame_.view.forward);
+    }
+    PacketHits hits;
+    rays.trace(ray_packet, lanes, &limits, hits);
+    for (uint32_t lane = 0; lane < packet.size(); ++lane) {
       const bool is_hit = (hits.hits >> lane & 1) != 0;
-      lit_[packet[lane].point] = !is_hit || depth >= packet[lane].least_depth;
+      lit_[packet[lane].point] = !is_hit || hits.t[lane] >= limits.last_t[lane];
     }
   }
 

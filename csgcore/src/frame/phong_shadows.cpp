@@ -11,6 +11,7 @@
 #include "base/worker_threads.hpp"
 #include "csgcore/light_tracer.hpp"
 #include "csgcore/phong.hpp"
+#include "frame/sparse_hits.hpp"
 
 namespace csgcore {
 namespace {
@@ -22,10 +23,10 @@ struct ShadedPixels {
 };
 
 ShadedPixels find_shaded(const Solid& solid, const View& view, const PhongLight& light,
-                         const Hits& hits) {
+                         const SparseHits& hits) {
   const bool is_perspective = view.projection == Projection::kPerspective;
   ShadedPixels result;
-  for (size_t pixel = 0; pixel < hits.s.size(); ++pixel) {
+  for (size_t pixel = 0; pixel < hits.primitive.size(); ++pixel) {
     if (hits.primitive[pixel] == Hits::kMiss) continue;
     const Vec3& position = hits.position[pixel];
     const Vec3& normal = hits.normal[pixel];
@@ -50,7 +51,7 @@ void cast_phong_shadows(const Solid& solid, const View& view, const Box& light_b
   const auto start = std::chrono::steady_clock::now();
   const PhongLight light = phong_light(view, light_box);
   with_threads(options.threads, [&] {
-    Hits hits;
+    SparseHits hits;
     TraceStats of_hits;
     trace(solid, view, options, hits, of_hits);
     stats.rays += of_hits.rays;

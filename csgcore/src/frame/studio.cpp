@@ -1,9 +1,9 @@
 // The pixels of a block that show the same face share a point of it. Where the light of points
-// beside each other is shared, a point asks a part of the directions, one of 16 groups, so that the
-// points of any square of 4 × 4 blocks have all of them (interleaved sampling: Keller and Heidrich,
-// Rendering Techniques 2001), and its light is that of the points around it on the same face. It
-// also asks the groups that no such neighbour asks. So each has an answer to every direction,
-// however small its face is.
+// beside each other is shared, a point asks a part of the directions, one of 9 groups, so that the
+// points of any square of 3 × 3 blocks have all of them (interleaved sampling: Keller and Heidrich,
+// Rendering Techniques 2001), and its light is that of the points around it on the same face. Where
+// these ask few groups, it asks some more itself. So each has answers to many directions, however
+// small its face is.
 #include "csgcore/studio.hpp"
 
 #include <tbb/parallel_for.h>
@@ -22,23 +22,28 @@
 #include "base/worker_threads.hpp"
 #include "csgcore/light_tracer.hpp"
 #include "csgcore/studio_light.hpp"
+#include "frame/sparse_hits.hpp"
 
 namespace csgcore {
 namespace {
 
 /// The side of the square of blocks whose points ask all groups.
-constexpr uint32_t kSquareBlocks = 4;
+constexpr uint32_t kSquareBlocks = 3;
 constexpr uint32_t kGroups = kSquareBlocks * kSquareBlocks;
 using Groups = uint16_t;  // bits
-static_assert(kGroups == 16);
+constexpr Groups kAllGroups = (1u << kGroups) - 1;
 /// A point's neighbours are in at most so many blocks to each side.
-constexpr uint32_t kReachBlocks = 2;
+constexpr uint32_t kReachBlocks = 1;
+/// Where light is shared, a point and its neighbours ask at least so many groups. All of them would
+/// take a third longer, and come nearer by a tenth.
+constexpr int kLeastGroups = 4;
 /// Neighbours share their groups by bands of so many rows of blocks, first every other band and
 /// then those between, which therefore can be dealt with at once.
 constexpr uint32_t kBandRows = 16;
 static_assert(kBandRows > 2 * kReachBlocks);
-/// One direction goes to the key light for so many of the whole sky.
-constexpr uint32_t kPerKeyDirection = 4;
+/// One direction goes to the key light for so many of the whole sky: fewer where light is shared,
+/// since the neighbours' directions make shadows smooth there.
+constexpr uint32_t kPerKeyDirection = 4, kPerSharedKeyDirection = 9;
 /// The tangent of the angle between the middle of the key light, which is a disc, and its rim:
 /// shadows are soft away from what casts them.
 constexpr double kKeyRadius = 0.06;
@@ -167,7 +172,7 @@ class Studio {
     const uint32_t side = settings_.block_px;
     columns_ = (view_.width_px + side - 1) / side;
     rows_.resize((view_.height_px + side - 1) / side);
-    point_of_.assign(hits_.s.size(), kNoPoint);
+    point_of_.assign(hits_.primitive.size(), kNoPoint);
     const auto for_each_pixel = [&](uint32_t column, uint32_t row, const auto& visit) {
       for (uint32_t y = row * side; y < std::min((row + 1) * side, view_.height_px); ++y) {
         for (uint32_t x = column * side; x < std::min((column + 1) * side, view_.width_px); ++x) {
@@ -257,6 +262,17 @@ class Studio {
     return {row.neighbours.data() + begin, row.ends[i] - begin};
   }
 
+  /// Returns groups that are not answered, as many as a point still has to ask.
+  unsigned some_missing(unsigned answered) const {
+    const int least = settings_.shares_light ? kLeastGroups : int{kGroups};
+    unsigned result = 0;
+    for (int count = std::popcount(answered); count < least; ++count) {
+      const unsigned missing = kAllGroups & ~(answered | result);
+      result |= missing & -missing;
+    }
+    return result;
+  }
+
   void share_groups() {
     for_each_point([&](uint32_t column, uint32_t row, uint32_t i) {
       const uint32_t group = row % kSquareBlocks * kSquareBlocks + column % kSquareBlocks;
@@ -271,8 +287,9 @@ class Studio {
           for (uint32_t i = 0; i < rows_[y].size(); ++i) {
             unsigned answered = 0;
             for (const uint32_t other : neighbours_of(rows_[y], i)) answered |= asked_[other];
+            const unsigned more = some_missing(answered);
             Groups& asked = asked_[rows_[y].first + i];
-            asked = static_cast<Groups>(asked | ~answered);
+            asked = static_cast<Groups>(asked | more);
           }
         }
       });
@@ -283,6 +300,11 @@ class Studio {
       sums += static_cast<uint32_t>(std::popcount(asked));
     }
     sums_.resize(sums);
+  }
+
+  uint32_t key_directions() const {
+    return settings_.directions /
+           (settings_.shares_light ? kPerSharedKeyDirection : kPerKeyDirection);
   }
 
   void ask_for_light() {
@@ -321,7 +343,7 @@ class Studio {
         }
       }
       if (settings_.shadows > 0) {
-        const uint32_t count = settings_.directions / kPerKeyDirection;
+        const uint32_t count = key_directions();
         for (uint32_t i = group; i < count; i += kGroups) {
           ask(key_direction(view_, light_.key, i, count), &Light::key, &Light::open_key);
         }
@@ -394,7 +416,7 @@ class Studio {
   const StudioSettings& settings_;
   const TraceOptions& options_;
   Image& image_;
-  Hits hits_;
+  SparseHits hits_;
   uint32_t columns_ = 0;  // of blocks
   std::vector<Row> rows_;
   std::vector<uint32_t> point_of_;  // by pixel; kNoPoint: it shows none that light falls on

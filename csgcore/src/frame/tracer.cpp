@@ -9,6 +9,7 @@
 #include "base/worker_threads.hpp"
 #include "frame/cell_tracer.hpp"
 #include "frame/edge_samples.hpp"
+#include "frame/sparse_hits.hpp"
 #include "rays/packet_blocks.hpp"
 
 namespace csgcore {
@@ -176,6 +177,13 @@ void draw(const Solid& solid, const View& view, const FrameSettings& settings,
 void trace(const Solid& solid, const View& view, const TraceOptions& options, Hits& hits,
            TraceStats& stats) {
   trace_frame(solid, nullptr, view, options, hits, stats);
+}
+
+void trace(const Solid& solid, const View& view, const TraceOptions& options, SparseHits& hits,
+           TraceStats& stats) {
+  Frame frame(solid, view, options, stats);
+  SparseSink sink(frame.rays(), hits);
+  frame.trace(nullptr, sink);
 }
 
 void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,

@@ -88,6 +88,25 @@ void MemorySink::store(const PacketBlock& block, const RayPacket& rays, const Tr
   });
 }
 
+SparseSink::SparseSink(const FrameRays& frame, SparseHits& hits) : frame_(frame), hits_(hits) {
+  const size_t pixels = size_t{frame.view.width_px} * frame.view.height_px;
+  hits.s = std::make_unique_for_overwrite<double[]>(pixels);
+  hits.position = std::make_unique_for_overwrite<Vec3[]>(pixels);
+  hits.normal = std::make_unique_for_overwrite<Vec3[]>(pixels);
+  hits.primitive.assign(pixels, Hits::kMiss);
+}
+
+void SparseSink::store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                       const PacketHits& hits) {
+  for_each_pixel(block, frame_.view.width_px, [&](uint32_t lane, size_t pixel) {
+    if ((hits.hits >> lane & 1) == 0) return;
+    hits_.s[pixel] = frame_.base_s + hits.t[lane];
+    hits_.position[pixel] = position_of(frame_, rays, hits, lane);
+    hits_.normal[pixel] = lane_of(hits.normal, lane);
+    hits_.primitive[pixel] = list.list->primitive[hits.index[lane]] & kPrimitiveBits;
+  });
+}
+
 ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,
                      Image& image)
     : frame_(frame),

@@ -1,6 +1,7 @@
 // Receivers of traced packets, which store them as pictures or as hits in memory.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "csgcore/image.hpp"
@@ -32,6 +33,27 @@ class MemorySink final : public HitSink {
  private:
   const FrameRays& frame_;
   Hits& hits_;
+};
+
+/// What each pixel's centre sees, as Hits has it, but undefined at a miss except for `primitive`.
+/// Memory of pixels that show nothing is never touched, which is most of the cost of small solids.
+struct SparseHits {
+  std::unique_ptr<double[]> s;
+  std::unique_ptr<Vec3[]> position, normal;
+  std::vector<uint32_t> primitive;
+};
+
+/// Stores hits in a SparseHits object.
+class SparseSink final : public HitSink {
+ public:
+  SparseSink(const FrameRays& frame, SparseHits& hits);
+  void clear(const Tile&) override {}
+  void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+             const PacketHits& hits) override;
+
+ private:
+  const FrameRays& frame_;
+  SparseHits& hits_;
 };
 
 /// Shades hits into an Image.

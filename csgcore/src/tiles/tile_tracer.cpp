@@ -371,8 +371,9 @@ class TileTracer::LeafRays final : public TileRays {
     return {*workspace_.fallback_list.trace_list().list, Cut{}.t};
   }
 
-  const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
-    return trace(rays, lanes, workspace_.list.trace_list(), nullptr, hits);
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const PacketLimits* limits,
+                         PacketHits& hits) override {
+    return trace(rays, lanes, workspace_.list.trace_list(), limits, hits);
   }
 
   const TraceList& trace(const RayPacket& rays, const PacketBlock& block,

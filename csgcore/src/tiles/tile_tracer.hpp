@@ -50,8 +50,10 @@ class TileRays {
   };
   virtual Met met() = 0;
 
-  /// Traces rays through any points of the tile. Returns the list that the hits' indices refer to.
-  virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) = 0;
+  /// Traces rays through any points of the tile, with trace_packet()'s limits. Returns the list
+  /// that the hits' indices refer to.
+  virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, const PacketLimits* limits,
+                                 PacketHits& hits) = 0;
   /// Traces rays through the centres of a block's pixels, with trace_packet()'s limits.
   virtual const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
                                  const PacketLimits* limits, PacketHits& hits) = 0;

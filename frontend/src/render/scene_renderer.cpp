@@ -218,7 +218,7 @@ class SceneRenderer::Impl {
     settings.stop = {};
     settings.progress = {};
     // The CPU adds the studio's light, which needs no shader: as little of it as can be asked for.
-    settings.studio.directions = csgcore::kLeastDirections;
+    settings.studio.directions = 1;
     settings.studio.shares_light = true;
     if (renderer) renderer->leave_thread();
     warming_ = std::async(std::launch::async, warmed, std::move(renderer), demands_of(settings),

@@ -384,10 +384,10 @@ TEST(Studio, ComesNearToManyDirections) {
     const Image wanted = occluded_picture(solid, view, test_support::full_run() ? 4096 : 1024);
     for (const bool shares_light : {true, false}) {
       StudioSettings settings{.shadows = 0, .edges = 0};
-      settings.directions = shares_light ? 64 : 256;
+      settings.directions = shares_light ? kFewDirections : 256;
       settings.shares_light = shares_light;
       const Image image = studio_picture(solid, view, settings);
-      EXPECT_LT(mean_error(image, wanted, unlit), shares_light ? 2 : 1);
+      EXPECT_LT(mean_error(image, wanted, unlit), shares_light ? 1.4 : 1);
     }
   }
 }
@@ -405,8 +405,8 @@ TEST(Studio, LightsSmallFacesAsWell) {
   const Image unlit = studio_picture(solid, view, {0, 0, 0});
   const Image wanted = occluded_picture(solid, view, 1024);
   StudioSettings settings{.shadows = 0, .edges = 0};
-  settings.directions = 64;
-  EXPECT_LT(mean_error(studio_picture(solid, view, settings), wanted, unlit), 7);
+  settings.directions = kFewDirections;
+  EXPECT_LT(mean_error(studio_picture(solid, view, settings), wanted, unlit), 6);
 }
 
 TEST(Studio, SharesLightWithinBlocks) {
