@@ -55,6 +55,8 @@ constexpr CommandRow kRows[] = {
      true},
     {Command::kPhongShading, Menu::kShow, "Phong's shading", "", 0, kNone, false},
     {Command::kStudioShading, Menu::kShow, "Studio's shading", "L", GLFW_KEY_L, kNone, false},
+    {Command::kPhongShadows, Menu::kShow, "Shadows of Phong's light", "", 0, kNone, false},
+    {Command::kDepthOrder, Menu::kShow, "Translucent parts by depth", "", 0, kNone, false},
     {Command::kStatus, Menu::kShow, "Status line", "", 0, kNone, true},
     {Command::kMessages, Menu::kShow, "Messages", "M", GLFW_KEY_M, kNone, false},
     {Command::kPlace, Menu::kShow, "Place of the point", "I", GLFW_KEY_I, kNone, false},

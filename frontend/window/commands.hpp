@@ -43,6 +43,8 @@ enum class Command : uint8_t {
   kOpenScadShading,
   kPhongShading,
   kStudioShading,
+  kPhongShadows,
+  kDepthOrder,
   kSection,
   kSectionX,
   kSectionY,

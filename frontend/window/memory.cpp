@@ -119,6 +119,8 @@ constexpr Switch kSwitches[] = {
     {"orthographic", Command::kOrthographic, Command::kPerspective, &GivenLook::projection},
     {"phong", Command::kPhongShading, Command::kOpenScadShading, &GivenLook::shading},
     {"studio", Command::kStudioShading, Command::kOpenScadShading, &GivenLook::shading},
+    {"phong_shadows", Command::kPhongShadows, Command::kPhongShadows, &GivenLook::shading},
+    {"depth_order", Command::kDepthOrder, Command::kDepthOrder, &GivenLook::translucency},
     {"parameters", Command::kParameters, Command::kParameters, nullptr},
     {"status_line", Command::kStatus, Command::kStatus, nullptr},
     {"messages", Command::kMessages, Command::kMessages, nullptr},

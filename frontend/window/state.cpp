@@ -307,6 +307,14 @@ bool State::apply(Command command) {
       case Command::kStudioShading:
         look.shading = Shading::kStudio;
         break;
+      case Command::kPhongShadows:
+        look.phong_shadows = look.phong_shadows > 0 ? 0 : 1;
+        break;
+      case Command::kDepthOrder:
+        look.translucency = look.translucency == frontend::Translucency::kDepth
+                                ? frontend::Translucency::kFile
+                                : frontend::Translucency::kDepth;
+        break;
       case Command::kLanguage2021:
         language = language::LanguageVersion::k2021;
         break;
@@ -377,6 +385,10 @@ bool State::is_checked(Command command) const {
       return look.shading == Shading::kPhong;
     case Command::kStudioShading:
       return look.shading == Shading::kStudio;
+    case Command::kPhongShadows:
+      return look.phong_shadows > 0;
+    case Command::kDepthOrder:
+      return look.translucency == frontend::Translucency::kDepth;
     case Command::kLanguage2021:
       return language == language::LanguageVersion::k2021;
     case Command::kLanguage2026:

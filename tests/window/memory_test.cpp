@@ -161,9 +161,10 @@ TEST_F(HabitsTest, AreRestored) {
 TEST_F(HabitsTest, TheCommandLineWins) {
   std::filesystem::create_directories(folder_ / "scadray");
   folder_.write("scadray/window",
-                "axes=on\northographic=on\nphong=on\nsamples=16\ncolours=Metallic\nplace=off\n");
+                "axes=on\northographic=on\nphong=on\nphong_shadows=on\ndepth_order=on\nsamples="
+                "16\ncolours=Metallic\nplace=off\n");
   frontend::Options options;
-  options.given = {true, true, true, true, true};
+  options.given = {true, true, true, true, true, true};
   const State state = restored(options);
   State plain{frontend::Options{}};
   plain.shows_place = false;

@@ -152,6 +152,14 @@ TEST_F(StateTest, WhatIsShown) {
   EXPECT_EQ(state_.look.shading, Shading::kPhong);
   state_.apply(Command::kOpenScadShading);
   EXPECT_EQ(state_.look.shading, Shading::kOpenScad);
+  state_.apply(Command::kPhongShadows);
+  EXPECT_EQ(state_.look.phong_shadows, 1);
+  state_.apply(Command::kPhongShadows);
+  EXPECT_EQ(state_.look.phong_shadows, 0);
+  for (const auto order : {frontend::Translucency::kDepth, frontend::Translucency::kFile}) {
+    state_.apply(Command::kDepthOrder);
+    EXPECT_EQ(state_.look.translucency, order);
+  }
   state_.apply(Command::kOrthographic);
   EXPECT_EQ(state_.navigation.projection(), Projection::kOrthographic);
   state_.apply(Command::kPerspective);

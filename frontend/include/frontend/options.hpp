@@ -52,6 +52,7 @@ struct GivenLook {
   bool projection = false;
   bool shading = false;
   bool samples = false;
+  bool translucency = false;
 };
 
 /// The whole command line, checked: every value is in its documented range.

@@ -458,8 +458,9 @@ Options parse_options(const std::vector<std::string>& words) {
   options.prints_echoes = arguments.has("echo");
   options.info = arguments.has("info");
   options.has_image_size = arguments.has("imgsize");
-  options.given = {arguments.has("colorscheme"), arguments.has("view"), arguments.has("projection"),
-                   arguments.has("shading"), arguments.has("samples")};
+  options.given = {arguments.has("colorscheme"), arguments.has("view"),
+                   arguments.has("projection"),  arguments.has("shading"),
+                   arguments.has("samples"),     arguments.has("translucency")};
   read_picture_kind(arguments, options);
   read_image_size(arguments, options.camera);
   const std::string camera_warning = read_camera(arguments, options.camera);
@@ -479,7 +480,7 @@ Options parse_options(const std::vector<std::string>& words) {
       options.handed.empty()) {
     options.action = Action::kOpenWindow;
     if (!options.given.shading) options.render.shading = Shading::kStudio;
-    if (!arguments.has("translucency")) options.render.translucency = Translucency::kDepth;
+    if (!options.given.translucency) options.render.translucency = Translucency::kDepth;
   }
   read_studio(arguments, options);
   check_inputs(options);

@@ -302,11 +302,14 @@ TEST(Options, File) {
 
 TEST(Options, WhatIsRememberedOtherwise) {
   const GivenLook none = parse_options({"a"}).given;
-  EXPECT_FALSE(none.scheme || none.view || none.projection || none.shading || none.samples);
-  const GivenLook all = parse_options({"--colorscheme=Metallic", "--view=axes", "--projection=o",
-                                       "--shading=phong", "--samples=4", "a"})
-                            .given;
-  EXPECT_TRUE(all.scheme && all.view && all.projection && all.shading && all.samples);
+  EXPECT_FALSE(none.scheme || none.view || none.projection || none.shading || none.samples ||
+               none.translucency);
+  const GivenLook all =
+      parse_options({"--colorscheme=Metallic", "--view=axes", "--projection=o", "--shading=phong",
+                     "--samples=4", "--translucency=file", "a"})
+          .given;
+  EXPECT_TRUE(all.scheme && all.view && all.projection && all.shading && all.samples &&
+              all.translucency);
 }
 
 TEST(Options, ImageSize) {
