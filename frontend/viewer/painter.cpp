@@ -8,6 +8,7 @@
 
 #include "base/elapsed.hpp"
 #include "csgcore/stop_scope.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "frontend/picture_file.hpp"
 #include "section_hatch.hpp"
 #include "section_plane.hpp"
@@ -40,6 +41,19 @@ constexpr double kWholeShare = 0.85;
 /// The directions of the studio's light in the first picture that has it, and in the last.
 constexpr uint32_t kFewDirections = csgcore::kFewDirections, kManyDirections = 256;
 
+/// A ray through a large mesh takes some four times as long as through other solids. Meshes of more
+/// triangles than this in all get fewer directions in the first picture.
+constexpr size_t kManyTriangles = 10'000;
+constexpr uint32_t kFewMeshDirections = 72;
+
+uint32_t first_directions(const csgcore::Scene& scene) {
+  size_t triangles = 0;
+  for (const csgcore::Primitive& primitive : scene.primitives) {
+    if (const csgcore::TriangleMesh* mesh = primitive.mesh()) triangles += mesh->triangles().size();
+  }
+  return triangles > kManyTriangles ? kFewMeshDirections : kFewDirections;
+}
+
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {
   frontend::RenderSettings settings = order.settings;
@@ -57,7 +71,7 @@ frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
   frontend::RenderSettings settings = last_settings(order);
   if (order.is_moving) settings.samples = 1;
   if (!draws_studio(settings) || step == Step::kFinal) return settings;
-  settings.studio.directions = kFewDirections;
+  settings.studio.directions = first_directions(order.design->scene);
   settings.studio.shares_light = true;
   if (step == Step::kColors) {
     settings.samples = 1;

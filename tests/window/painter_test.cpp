@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <future>
 #include <memory>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -168,6 +169,40 @@ TEST_F(PainterTest, DrawsWhatTheCommandDraws) {
   check();
   order.design = design_of(window_test::kBall);
   check();
+}
+
+/// A mesh of 12,000 triangles: a prism whose sides are teeth.
+std::string many_teeth() {
+  constexpr int kCorners = 3000;
+  std::string points, faces, below, above;
+  for (int i = 0; i < kCorners; ++i) {
+    const double turn = 2 * std::numbers::pi * i / kCorners, radius = 20 + 5 * (i % 2);
+    const std::string at = "[" + std::to_string(radius * std::cos(turn)) + ", " +
+                           std::to_string(radius * std::sin(turn)) + ", ";
+    points += at + "0], " + at + "10], ";
+    const int next = (i + 1) % kCorners;
+    for (const int corner : {2 * i, 2 * i + 1, 2 * next + 1, 2 * next}) {
+      faces += (corner == 2 * i ? "[" : ", ") + std::to_string(corner);
+    }
+    faces += "], ";
+    below += std::to_string(2 * i) + ", ";
+    above = std::to_string(2 * i + 1) + ", " + above;
+  }
+  return "polyhedron(points = [" + points + "], faces = [" + faces + "[" + below + "], [" + above +
+         "]], convexity = 1);\n";
+}
+
+TEST_F(PainterTest, LightsLargeMeshesByFewerDirectionsAtFirst) {
+  PaintOrder order = order_of(design_of(many_teeth()));
+  order.settings.shading = frontend::Shading::kStudio;
+  PaintOrder lit = order;
+  lit.settings.samples = frontend::kStudioSamples;
+  lit.settings.studio.directions = 72;
+  const auto wanted = command_picture(lit).rgb;
+  painter().order(order);
+  Painting painting = next_painting();
+  while (!painting.is_final && painting.image.rgb != wanted) painting = next_painting();
+  EXPECT_TRUE(painting.image.rgb == wanted);
 }
 
 TEST_F(PainterTest, LightsAStudioInSteps) {
