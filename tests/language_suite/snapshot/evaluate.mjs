@@ -22,8 +22,13 @@ function answer({ instance, said }, job) {
   const folder = "/design";
   instance.FS.mkdir(folder);
   instance.FS.chdir(folder);
-  for (const [path, text] of Object.entries(job.files)) instance.FS.writeFile(path, text);
-  for (const [path, source] of Object.entries(job.copies ?? {})) instance.FS.writeFile(path, readFileSync(source));
+  const write = (path, bytes) => {
+    const whole = path.startsWith("/") ? path : `${folder}/${path}`;
+    instance.FS.mkdirTree(whole.replace(/\/[^/]*$/, "") || "/");
+    instance.FS.writeFile(whole, bytes);
+  };
+  for (const [path, text] of Object.entries(job.files)) write(path, text);
+  for (const [path, source] of Object.entries(job.copies ?? {})) write(path, readFileSync(source));
   let status;
   const start = performance.now();
   try {
