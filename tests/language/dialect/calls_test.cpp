@@ -1,5 +1,7 @@
 // Scopes and calls of 2026's dialect beside those of 2021.01. What 2026 says and makes was found by
 // running OpenSCAD 2025.07.18.
+#include <gmock/gmock.h>
+
 #include "dialect/said.hpp"
 
 namespace language {
@@ -29,6 +31,11 @@ TEST(Calls, FillFreeParameters) {
             "WARNING: argument \"a\" supplied more than once in file design.scad, line 2\n"
             "ECHO: [2, undef, undef]\n");
   EXPECT_EQ(said_2021(define + "echo(f(a = 1, 2));"), "ECHO: [2, undef, undef]\n");
+}
+
+TEST(Calls, GiveEachParameterOfANameAnArgument) {
+  const std::string program = "function f(p, p, q) = [p, q]; echo(f(1, 2, 3), f(p = 1, 2));";
+  EXPECT_EQ(said_2026(program), "ECHO: [2, 3], [1, 2]\n");
 }
 
 TEST(Calls, EvaluateLeftOperandsFirst) {
@@ -89,6 +96,25 @@ TEST(Calls, ChildrenAlwaysMakeAGroup) {
   EXPECT_EQ(said_2021("union(3) cube(1);"), "");
 }
 
+TEST(Calls, ChildrenAreAModuleLikeOthers) {
+  const std::string program = "children(echo(\"evaluated\") 0) cube(1);";
+  EXPECT_EQ(
+      said_2026(program),
+      "ECHO: \"evaluated\"\nWARNING: module children() does not support child modules in file "
+      "design.scad, line 1\n");
+  EXPECT_EQ(said_2021(program), "");
+}
+
+TEST(Calls, CountModulesBehindArgumentsAndDefaults) {
+  const std::string program =
+      "module m(a, b = $parent_modules) { echo(a, b, $parent_modules); children(); }\n"
+      "m() m($parent_modules);";
+  EXPECT_EQ(said_2026(program),
+            "WARNING: Ignoring unknown variable \"$parent_modules\" in file design.scad, line 1\n"
+            "ECHO: undef, undef, 1\nECHO: 1, 1, 2\n");
+  EXPECT_EQ(said_2021(program), "ECHO: undef, 1, 1\nECHO: 2, 2, 2\n");
+}
+
 TEST(Calls, CallDynamicNamesAndLetTheInnermostNameCount) {
   EXPECT_EQ(said_2026("$f = function(x) x + 1; echo($f(1));"), "ECHO: 2\n");
   EXPECT_EQ(said_2026("function g() = let(g = function() 5) g(); echo(g());"), "ECHO: 5\n");
@@ -127,6 +153,11 @@ TEST(Calls, TraceAssignmentsAndParameters) {
             "ERROR: Assertion 'false' failed in file design.scad, line 2\n"
             "TRACE: assignment to \"a\" in file design.scad, line 2\n"
             "TRACE: called by 'm' in file design.scad, line 4\n");
+  EXPECT_THAT(
+      said_2026("a = 1;\na = 2;\na = assert(false);\n"),
+      testing::EndsWith("TRACE: overwritten assignment to \"a\" (this is where the "
+                        "assignment is evaluated) in file design.scad, line 1\n"
+                        "TRACE: overwriting assignment to \"a\" in file design.scad, line 3\n"));
 }
 
 TEST(Calls, SayIn2026sWords) {

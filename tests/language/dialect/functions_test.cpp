@@ -66,6 +66,33 @@ TEST(Functions, KnowTheProgramThatIsImitated) {
   EXPECT_EQ(said_2021("echo(version());"), "ECHO: [2021, 1, 0]\n");
 }
 
+TEST(Functions, RandsChecksAllTypesFirst) {
+  const std::string program = "x = rands(1 / 0, 1, 2, \"a\");";
+  EXPECT_EQ(said_2026(program),
+            warning("rands() parameter could not be converted: argument 3: expected number, found "
+                    "string (\"a\")"));
+  EXPECT_NE(said_2021(program), said_2026(program));
+}
+
+TEST(Functions, ConvertToTheNearestInteger) {
+  const std::string program =
+      "echo(chr(4294967296 + 65), tan(1e12), search(1, [1, 1, 1], 4294967297));\n";
+  EXPECT_EQ(said_2026(program), "ECHO: \"\", -5.67131, [0, 1, 2]\n");
+  EXPECT_EQ(said_2021(program), "ECHO: \"A\", -5.67125, [0]\n");
+  EXPECT_EQ(said_2026("x = parent_module(1e10);"),
+            warning("Parent module index (2147483647) greater than the number of modules on the "
+                    "stack"));
+}
+
+TEST(Ranges, CountNoMoreThan32Bits) {
+  const std::string program = "for (i = [0:1e10]) echo(i);";
+  const auto too_many = [](const std::string& count) {
+    return warning("Bad range parameter in for statement: too many elements (" + count + ")");
+  };
+  EXPECT_EQ(said_2026(program), too_many("4294967295"));
+  EXPECT_EQ(said_2021(program), too_many("1410065408"));
+}
+
 TEST(Functions, SearchFindsLongTexts) {
   const std::string program = "echo(search(\"tx\", [[\"this is a long text indeed\"]]));";
   EXPECT_EQ(said_2026(program), "ECHO: [0]\n");
@@ -78,6 +105,18 @@ TEST(Ranges, ReversedOnesAreEmpty) {
             warning("begin is greater than the end, but step is positive") + "ECHO: [5 : 1 : 1]\n");
   EXPECT_EQ(said_2021("for (i = [2:1]) echo(i);").substr(0, 11), "DEPRECATED:");
   EXPECT_EQ(said_2026("for (i = [0:20000]) if (i == 20000) echo(i);"), "ECHO: 20000\n");
+}
+
+TEST(Files, AreFoundBesideTheFileThatHasTheCall) {
+  const BesideFiles files = {{"used.scad", "module m() import(\"a.stl\");"},
+                             {"lib/included.scad", "import(\"a.stl\"); x = import(\"b.json\");"},
+                             {"lib/a.stl", ""},
+                             {"lib/b.json", "1"}};
+  const std::string program = "include <lib/included.scad>\nuse <used.scad>\nm(); echo(x);\n";
+  const auto file_of = [](const std::string& tree) { return tree.substr(0, tree.find(", ")); };
+  EXPECT_EQ(file_of(tree_2026(program, files)), "import(file = \"lib/a.stl\"");
+  EXPECT_EQ(file_of(tree_2021(program, files)), "import(file = \"a.stl\"");
+  EXPECT_EQ(said_2026(program, files), "ECHO: 1\n");
 }
 
 TEST(Files, MissingOnesAreToldWithTheirPlace) {

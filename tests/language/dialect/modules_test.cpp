@@ -26,6 +26,11 @@ TEST(Modules, LinearExtrude) {
   expect("v = [3, 2, 5]", "height = 6.16441, v = [ 0.486664, 0.324443, 0.811107]" + fragments);
   expect("10, v = [0, 0, 1]", "height = 10" + fragments);
   expect("v = [0, 0, -2]", "height = 0" + fragments);
+  expect("v = [1, 2, -3]", "height = 2.23607, v = [ 0.447214, 0.894427, 0]" + fragments);
+  expect("-3, v = [1, 0, 0]", "height = 3, v = [ -1, -0, 0]" + fragments);
+  expect("1e200", "height = inf, v = [ 0, 0, 0]" + fragments);
+  expect("5, convexity = 1 / 0", "height = 5" + fragments);
+  expect("5, convexity = 3e9", "height = 5" + fragments + ", convexity = 3000000000");
   expect("5, scale = 2", "height = 5, scale = 2" + fragments);
   expect("5, scale = [2, 3]", "height = 5, scale = [2, 3]" + fragments);
   expect("5, segments = 0, convexity = 10",
@@ -35,6 +40,8 @@ TEST(Modules, LinearExtrude) {
   expect("5, [1, 2, 3], 2, true, 90, 8, 9",
          "height = 5, v = [ 0.267261, 0.534522, 0.801784], center = true, twist = 90, slices = 8, "
          "segments = 9, scale = 2");
+  expect_warning("linear_extrude(segments = 1 / 0)",
+                 "linear_extrude(..., segments=inf) argument cannot be infinite or nan");
   expect_warning("linear_extrude(height = 5, h = 6)", "Specified both \"height\" and \"h\"");
   expect_warning("linear_extrude(5, slices = true)",
                  "linear_extrude(..., slices=true) Invalid type: expected number, found bool");
@@ -74,6 +81,32 @@ TEST(Modules, NegativeZerosOfRotations) {
   expect("translate([-0, 0, 0])", "[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]");
 }
 
+TEST(Modules, ConvertToTheNearestInteger) {
+  for (const auto& [number, nearest] :
+       {std::pair("1e10", "2147483647"), {"-1 / 0", "-2147483648"}, {"0 / 0", "0"}}) {
+    const std::string call = std::string("render(") + number + ")";
+    expect_node(call, std::string("render(convexity = ") + nearest + ")");
+    EXPECT_EQ(tree_2021(call + ";"), "render(convexity = -2147483648);\n\n");
+  }
+  expect_node("linear_extrude(1, slices = 1e10, segments = 1)",
+              "linear_extrude(height = 1, slices = 4294967295, segments = 1)");
+}
+
+TEST(Modules, RoofsHaveLeastFragments) {
+  expect_node("roof($fa = 0, $fs = -1, convexity = -1)",
+              "roof(method = \"voronoi\", $fa = 0.01, $fs = 0.01, $fn = 0, convexity = 1)");
+  expect_node("roof($fn = 4, convexity = 1 / 0)",
+              "roof(method = \"voronoi\", $fa = 90, $fs = 0, $fn = 4, convexity = 1)");
+}
+
+TEST(Modules, WithoutFragmentsDoNotCheckThem) {
+  for (const char* const call : {"cube(1, $fs = 0);", "square(1, $fs = 0);"}) {
+    EXPECT_EQ(said_2026(call), "");
+    EXPECT_NE(said_2021(call), "");
+  }
+  expect_warning("sphere(1, $fs = 0)", "$fs too small - clamping to 0.010000");
+}
+
 TEST(Modules, RotateExtrude) {
   const auto expect = [](const std::string& arguments, const std::string& node) {
     expect_node("rotate_extrude(" + arguments + ")", "rotate_extrude(" + node + ")");
@@ -88,6 +121,7 @@ TEST(Modules, RotateExtrude) {
   EXPECT_EQ(said_2026("rotate_extrude($fn = 5);").substr(0, 75),
             "DEPRECATED: In future releases, rotational extrusion without \"angle\" will s");
   EXPECT_EQ(said_2026("rotate_extrude($fn = 4);"), "");
+  EXPECT_NE(said_2026("rotate_extrude($fn = -1);"), "");
 }
 
 TEST(Modules, TextsAndFiles) {
@@ -133,6 +167,14 @@ TEST(Modules, PointsAreChecked) {
               "convexity = 1)");
   expect_node("polyhedron(\"a\", [[0, 1, 2]])",
               "polyhedron(points = [], faces = [], convexity = 1)");
+  expect_node("polyhedron([[0, 0, 0]], 3, convexity = 5)",
+              "polyhedron(points = [[0, 0, 0]], faces = [], convexity = 1)");
+  expect_node("polygon([[0, 0]], 3, convexity = 5)",
+              "polygon(points = [[0, 0]], paths = undef, convexity = 1)");
+  expect_node("polygon([[0, 0]], [[0 / 0]], convexity = 5)",
+              "polygon(points = [[0, 0]], paths = [[0]], convexity = 5)");
+  expect_warning("polygon([[0, 0]], [[1 / 0]])",
+                 "Point index 4294967295 is out of bounds (from paths[0][0])");
 }
 
 TEST(Modules, FillRoofAndColor) {

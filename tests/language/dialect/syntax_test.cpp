@@ -47,6 +47,18 @@ TEST(Dialect, CountsLinesWithinPaths) {
             "WARNING: module cube() does not support child modules in file design.scad, line 2\n");
 }
 
+TEST(Dialect, CountsLinesBeforePaths) {
+  const auto lines = [](const std::string& first, const std::string& second) {
+    const std::string end = " does not support child modules in file design.scad, line ";
+    return "WARNING: Can't open library 'none.scad'. in file design.scad, line " + first +
+           "\nWARNING: module cube()" + end + second + "\n";
+  };
+  EXPECT_EQ(said_2026("use\n\n<none.scad>\ncube(1) sphere();"), lines("1", "4"));
+  EXPECT_EQ(said_2021("use\n\n<none.scad>\ncube(1) sphere();"),
+            "WARNING: Can't open library 'none.scad'.\nWARNING: module cube() does not support "
+            "child modules in file design.scad, line 2\n");
+}
+
 TEST(Dialect, HasNoDoubledCommas) {
   for (const char* const program :
        {"echo(1,,2);", "echo(,1);", "x=[1,,2];", "x=[,];", "x=[1,,];", "function f(a,,b)=1;",
@@ -68,6 +80,26 @@ TEST(Dialect, HasNoDoubledCommas) {
 TEST(Dialect, HasComprehensionsInParenthesesFirst) {
   EXPECT_EQ(said_2026("echo([(for (i = [1]) i)]);"), "ECHO: [1]\n");
   EXPECT_TRUE(is_error(said_2021("echo([(for (i = [1]) i)]);")));
+}
+
+TEST(Dialect, HasNegativeNumbers) {
+  const std::string program = "echo(function() [-0, - 1, -(-2), -2 ^ 2, -a]);";
+  EXPECT_EQ(said_2026(program), "ECHO: function() [0, -1, 2, -(2 ^ 2), -a]\n");
+  EXPECT_EQ(said_2021(program), "ECHO: function() [-0, -1, --2, -(2 ^ 2), -a]\n");
+}
+
+TEST(Dialect, TakesADollarForAName) {
+  EXPECT_EQ(said_2026("$ = 3; module m() echo($); m(); m($ = 4);"), "ECHO: 3\nECHO: 4\n");
+  EXPECT_TRUE(is_error(said_2021("$ = 3;")));
+}
+
+TEST(Dialect, TellsTheFirstOfOverwrittenAssignments) {
+  const auto line_told = [](const std::string& said) {
+    return said.substr(said.rfind("on line ") + 8, 1);
+  };
+  const std::string program = "a = 1;\na = 2;\na = 3;";
+  EXPECT_EQ(line_told(said_2026(program)), "1");
+  EXPECT_EQ(line_told(said_2021(program)), "2");
 }
 
 TEST(Dialect, QuotesOverwrittenNames) {

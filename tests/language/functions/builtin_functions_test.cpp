@@ -63,7 +63,7 @@ class BuiltinFunctions : public ::testing::Test {
   Messages messages_{files_, [this](const Message& message) { said_ += " | " + message.text; }};
 
  protected:
-  NamedFiles named_files_{messages_, "/folder"};
+  NamedFiles named_files_{messages_, "/folder", nullptr};
   FunctionEnvironment environment_{dialect_of(LanguageVersion::k2021), messages_, named_files_,
                                    std::mt19937()};
 };

@@ -6,7 +6,8 @@ namespace language {
 /// Return NaN for what is infinite, NaN, or too large for a remainder to mean anything.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
-double tangent_of_degrees(double degrees);
+/// OpenSCAD counts half turns in 32 bits: above these it takes the nearest number, or the least.
+double tangent_of_degrees(double degrees, bool has_nearest_integers = false);
 
 /// Return degrees, rounded to an integer where the rounded angle has exactly the given value.
 double arc_sine_degrees(double sine);

@@ -1,5 +1,6 @@
 #include "language/degrees.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -73,12 +74,13 @@ double cosine_of_degrees(double angle) {
   return is_negative ? -cosine : cosine;
 }
 
-double tangent_of_degrees(double angle) {
+double tangent_of_degrees(double angle, bool has_nearest_integers) {
   if (!(std::abs(angle) < kMostPeriods * 360)) return kNotANumber;
-  // OpenSCAD counts the half turns in 32 bits: what does not fit becomes the least integer.
-  constexpr double kLeastInteger = -2147483648.0;
+  // OpenSCAD counts the half turns in 32 bits.
+  constexpr double kLeast = -2147483648.0, kMost = 2147483647.0;
   double half_turns = std::floor(angle / 180);
-  if (!(std::abs(half_turns + 0.5) < -kLeastInteger)) half_turns = kLeastInteger;
+  if (half_turns > kMost) half_turns = has_nearest_integers ? kMost : kLeast;
+  half_turns = std::max(half_turns, kLeast);
   angle -= 180 * half_turns;
   const bool is_odd = std::fmod(half_turns, 2) != 0;
   if (angle == 0) return is_odd ? -0.0 : 0.0;

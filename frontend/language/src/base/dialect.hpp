@@ -30,9 +30,12 @@ class Dialect : public VersionTable {
   const bool tells_imprecise_integers = row(false, true);
   /// Whether names that begin with a digit are deprecated.
   const bool deprecates_digits_first = row(false, true);
+  /// Whether `$` alone is a name.
+  const bool has_bare_dollars = row(false, true);
   /// Whether it is said that a backslash begins no escape.
   const bool tells_undefined_escapes = row(false, true);
-  /// Whether line ends within the brackets of `include` and `use` are counted, and warned of.
+  /// Whether line ends of paths of `include` and `use` are counted, before the brackets and within
+  /// them, and warned of within them.
   const bool counts_lines_of_paths = row(false, true);
 
   // Grammar
@@ -40,6 +43,10 @@ class Dialect : public VersionTable {
   /// Whether commas may be doubled, and stand before the first parameter or element. One may stand
   /// behind the last one, whatever it is.
   const bool has_doubled_commas = row(true, false);
+  /// Whether a number with a minus before it is one number, not an operation.
+  const bool has_negative_numbers = row(false, true);
+  /// Whether an assignment that overwrites others tells of the first of them; else of the last.
+  const bool tells_first_assignment = row(false, true);
   /// Whether a vector's first element may be a comprehension in parentheses.
   const bool has_comprehension_first = row(false, true);
 
@@ -118,9 +125,19 @@ class Dialect : public VersionTable {
   const bool has_old_search = row(true, false);
   /// Whether norm() and lookup() say what is no vector.
   const bool tells_missing_vectors = row(false, true);
+  /// Whether a number that does not fit becomes the nearest integer, 0 if it is NaN; else what C's
+  /// cast makes of it on x86: the least int, or the low bits of 64.
+  const bool has_nearest_integers = row(false, true);
+  /// Cut a number to an integer.
+  int integer(double number) const;
+  uint32_t unsigned_integer(double number) const;
   /// What version() returns: year, month and day.
   const std::array<double, 3> program =
       row(std::array<double, 3>{2021, 1, 0}, std::array<double, 3>{2025, 7, 18});
+  /// Whether files are looked for beside the file that has the call; else beside the main or used
+  /// file, which may include that one.
+  const bool finds_files_beside_calls = row(false, true);
+  /// Whether paths in messages are relative to the folder of the used file that is evaluated; else
   /// Whether the place is said where a file that is included or used cannot be opened.
   const bool tells_place_of_missing_files = row(false, true);
   /// Whether the paths in all messages of an evaluation are relative to the main file's folder;
@@ -144,6 +161,8 @@ class Dialect : public VersionTable {
   /// Whether matrices and lists of points are written by C's %g, which keeps -0; else as echo()
   /// writes numbers.
   const bool writes_general_numbers = row(false, true);
+  /// Whether primitives without fragments warn of $fa and $fs that are too small.
+  const bool checks_unused_fragments = row(true, false);
   /// Whether color() checks its alpha, and what is no colour has none.
   const bool checks_alpha = row(false, true);
   /// Whether "xkcd:dust" is a colour.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,13 @@ char* put_echo_number(char* out, double number);
 /// Returns the double nearest to a decimal number: digits with an optional point and exponent,
 /// no sign. Numbers that are too small give 0; nothing is returned for those that are too large.
 std::optional<double> decimal_number(std::string_view text);
+
+/// Returns the nearest number of 32 bits, without its sign, to one that is cut; 0 for NaN.
+inline uint32_t nearest_count(double number) {
+  constexpr uint32_t kMost = std::numeric_limits<uint32_t>::max();
+  if (number >= kMost) return kMost;
+  return number > 0 ? static_cast<uint32_t>(number) : 0;
+}
 
 /// Returns the low 32 bits of a number cut to an integer; 0 for what 64 bits cannot hold.
 inline uint32_t low_bits(double number) {

@@ -134,6 +134,7 @@ struct TraceRegion {
   Place place;
   bool is_assignment = false;  // to the name, and no call
   bool is_tail = false;        // a call that takes the place of the running function's
+  Place overwritten{};         // of the first assignment to the name, if there are several
 };
 
 struct Code {

@@ -113,6 +113,7 @@ enum class Op : uint8_t {
   kMakeNode,        // pop the parameters, make a builtin module's node, go to b if it is no parent
   kSaveBlock,       // remember the scope of the block of calls[b]
   kNameModule,      // the user module of calls[b] counts among those that run from here on
+  kCountModules,    // bind $parent_modules to the user modules that run
   kCallModule,      // call the user module of calls[b], whose parameters are on top
   kChildCount,      // push $children
   kParameterLiteral,  // if the value on top is set, say that the name b, a parameter, is

@@ -52,6 +52,8 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   const auto number = static_cast<uint32_t>(calls.size());
   calls.push_back(site);
   out_.emit(Op::kNameModule, call.place, 0, number);
+  if (compiler_.counts_modules() && !compiler_.dialect().has_arguments_first)
+    out_.emit(Op::kCountModules, call.place, 0);
   const uint32_t base = out_.depth();
   begin_call(module.parameters, call.place, number);
   pass_arguments(plan, call.arguments, base, call.place);
@@ -179,21 +181,19 @@ void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
 
 void CodeCompiler::plain_children_call(const ModuleCall& call, bool is_child) {
   if (is_child) out_.emit(Op::kDeprecatedChild, call.place, 0);
-  const uint32_t outside = out_.emit(Op::kUnlessInModule, call.place, 0);
+  const uint32_t site = add_list_site(call);
   const uint32_t start = out_.depth();
   const bool has_mark = names_dynamic(call.arguments, compiler_.names());
   if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
   ModuleShape shape{};
   shape.parameters = {compiler_.known().index};
   shape.positional = 1;
-  builtin_arguments(call, shape);
-  const uint32_t none =
-      out_.emit(Op::kRunChildren, call.place, -1, 0, add_list_site(call), is_child ? 1 : 0);
+  builtin_arguments(call, shape, call.children->calls.empty() ? std::nullopt : std::optional(site));
+  const uint32_t none = out_.emit(Op::kRunChildren, call.place, -1, 0, site, is_child ? 1 : 0);
   end_node(call);
   out_.land(none);
   if (has_mark) out_.emit(Op::kUndoTrail, call.place, 0, start);
   drop_to(start, call.place);
-  out_.land(outside);
 }
 
 void CodeCompiler::selection_of_children(const ModuleCall& call, bool is_child) {

@@ -85,7 +85,7 @@ ArgumentPlan plan_arguments(std::span<const Argument> arguments, ParameterList& 
     return std::string(names.text(parameters.targets[number].name));
   };
   const auto is_taken = [&](size_t number) {
-    return parameters.targets[number].name == taken || chosen.count(text_of_parameter(number));
+    return parameters.targets[number].name == taken || is_named(text_of_parameter(number));
   };
   size_t position = 0;
   bool has_too_many = false;

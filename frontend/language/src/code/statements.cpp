@@ -54,6 +54,8 @@ void CodeCompiler::compile_module(ModuleEntry& module) {
   out_.code().slots = slots;
   out_.set_depth(slots);
   defaults_of_callee(module);
+  if (compiler_.counts_modules() && compiler_.dialect().has_arguments_first)
+    out_.emit(Op::kCountModules, module.place, 0);
   ScopeLayout& scope = open_scope(true, module.place);
   const uint32_t open = out_.here() - 1;
   out_.emit(Op::kChildCount, module.place, 1);
@@ -100,7 +102,7 @@ void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module, const H
     expression(*assignment.value);
     if (compiler_.dialect().has_full_traces)
       out_.code().regions.push_back({region, out_.here(), compiler_.names().text(assignment.name),
-                                     nullptr, assignment.place, true});
+                                     nullptr, assignment.place, true, false, assignment.first});
     const bool is_hidden =
         is_dynamic_name(assignment.name, compiler_.names()) && hiding.hides(assignment.name);
     if (is_hidden) {

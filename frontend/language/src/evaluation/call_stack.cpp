@@ -117,6 +117,10 @@ void CallStack::fail_recursion(const char* kind, std::string_view name, Place pl
   fail("Recursion detected calling " + std::string(kind) + " '" + std::string(name) + "'", place);
 }
 
+void CallStack::say_trace(std::string text, Place place) {
+  environment_.messages.say(MessageGroup::kTrace, std::move(text), place, PathBase::kUnit);
+}
+
 void CallStack::say_traces() {
   frames_.back().next = next_;
   uint32_t count = 0;
@@ -132,17 +136,23 @@ void CallStack::say_traces() {
       const TraceRegion& told = tail ? *tail : region;
       const std::string name =
           told.callee && told.name.empty() ? text_of(*told.callee) : std::string(told.name);
-      const std::string text =
-          region.is_assignment ? "assignment to \"" + name + "\"" : "called by '" + name + "'";
-      environment_.messages.say(MessageGroup::kTrace, text, told.place, PathBase::kUnit);
+      const bool has_overwritten = told.overwritten.file != kNoFile;
+      const std::string of_name = "assignment to \"" + name + "\"";
+      if (has_overwritten) {
+        say_trace("overwritten " + of_name + " (this is where the assignment is evaluated)",
+                  told.overwritten);
+      }
+      say_trace(!region.is_assignment ? "called by '" + name + "'"
+                : has_overwritten     ? "overwriting " + of_name
+                                      : of_name,
+                told.place);
     }
     callee = frame->kind == FrameKind::kFunction ? &*frame : nullptr;
     if (!program_.dialect.has_full_traces || !traces_parameters_ ||
         frame->kind != FrameKind::kModule || frame->next <= frame->code->statements)
       continue;
     if (++count > most_traces_) return;
-    environment_.messages.say(MessageGroup::kTrace, "call of '" + call_text(*frame) + "'",
-                              frame->call, PathBase::kUnit);
+    say_trace("call of '" + call_text(*frame) + "'", frame->call);
   }
 }
 

@@ -141,6 +141,7 @@ class CallStack {
   [[noreturn]] void fail_recursion(const char* kind, std::string_view name, Place place);
   /// Says the calls that enclose the place, from inside out.
   void say_traces();
+  void say_trace(std::string text, Place place);
   /// Sets how many lines they take at most, and whether modules tell their parameters.
   void set_traces(uint32_t most_lines, bool has_parameters) {
     most_traces_ = most_lines;

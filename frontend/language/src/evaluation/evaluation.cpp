@@ -288,7 +288,8 @@ void Session::evaluate_program() {
   Compiler compiler(*program_, definitions, builtin_shapes(program_->names, program_->dialect),
                     {options_.check_parameters, options_.lazy_union});
   const std::string& folder = program_->units[0].folder;
-  NamedFiles files(messages_, folder);
+  NamedFiles files(messages_, folder,
+                   program_->dialect.finds_files_beside_calls ? &program_->files : nullptr);
   ModuleEnvironment modules{program_->dialect, messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   preset_names(machine);

@@ -327,6 +327,9 @@ bool Machine::execute(const Instruction& step) {
     case Op::kNameModule:
       modules_.add_name(code.calls[step.b].module->name);
       break;
+    case Op::kCountModules:
+      modules_.bind_count();
+      break;
     case Op::kCallModule:
       modules_.call(code.calls[step.b]);
       break;

@@ -16,12 +16,6 @@ constexpr uint32_t kRangeLimit = 10000;  // of a range of this count and more no
 
 constexpr size_t kWorkOfMessage = 128;  // about a child that is not there, which takes some 500 ns
 
-// Cuts to a whole number as C does on this processor: the least one for all that does not fit.
-int whole(double number) {
-  const bool fits = number > -2147483649.0 && number < 2147483648.0;
-  return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
-}
-
 }  // namespace
 
 ModuleCalls::ModuleCalls(Compiler& compiler, ModuleEnvironment& environment,
@@ -105,10 +99,10 @@ void ModuleCalls::make_node(const NodeSite& site, uint32_t no_children, bool tak
   if (made == Made::kNothing) tree_.remove(tree_.size() - 1);
 }
 
-void ModuleCalls::add_name(Name name) {
-  names_.push_back(compiler_.names().text(name));
-  if (parent_modules_ != kNoName)
-    stack_.dynamic.bind(parent_modules_, static_cast<double>(names_.size()));
+void ModuleCalls::add_name(Name name) { names_.push_back(compiler_.names().text(name)); }
+
+void ModuleCalls::bind_count() {
+  stack_.dynamic.bind(parent_modules_, static_cast<double>(names_.size()));
 }
 
 void ModuleCalls::call(const CallSite& site) {
@@ -227,7 +221,7 @@ bool Children::select(const NodeSite& site, bool is_child) {
   Value selection = stack_.values.pop();
   const bool is_number = selection.is_number() || is_child;
   if (is_number) {
-    const int number = whole(selection.is_number() ? selection.number() : 0);
+    const int number = compiler_.dialect().integer(selection.is_number() ? selection.number() : 0);
     if (!is_child_number(number, is_child)) return false;
     selection = make_vector(1);
     append_element(selection, static_cast<double>(number));
@@ -271,7 +265,7 @@ void Children::run_next(uint32_t slot, uint32_t after) {
       stack_.messages().say(MessageGroup::kWarning,
                             "Bad parameter type (" + text +
                                 ") for children, only accept: empty, number, vector, range.");
-    } else if (is_child_number(whole(index.number()), false)) {
+    } else if (is_child_number(compiler_.dialect().integer(index.number()), false)) {
       return run(FrameKind::kChild, static_cast<uint32_t>(index.number()));
     }
   }
@@ -299,7 +293,7 @@ std::optional<Value> Children::numbers_of(const Value& selection) {
     for (uint32_t number = 0; number < count(); ++number)
       append_element(numbers, static_cast<double>(number));
   } else if (selection.is_number()) {
-    if (!is_inside(whole(selection.number()))) return std::nullopt;
+    if (!is_inside(compiler_.dialect().integer(selection.number()))) return std::nullopt;
     append_element(numbers, std::trunc(selection.number()));
   } else if (selection.is_range() && selection.range().count() >= kRangeLimit) {
     stack_.warn("Bad range parameter for children: too many elements (" +
@@ -324,7 +318,7 @@ void Children::append_existing(Value& numbers, const Value& selection) {
       std::string text;
       append_str_text(text, index);
       refuse_type(text, ".");
-    } else if (is_inside(whole(index.number()))) {
+    } else if (is_inside(compiler_.dialect().integer(index.number()))) {
       append_element(numbers, std::trunc(index.number()));
     }
   }
@@ -332,6 +326,7 @@ void Children::append_existing(Value& numbers, const Value& selection) {
 
 void Children::run_selection(const NodeSite& site, uint32_t none, bool is_child) {
   Value selection = stack_.values.pop();
+  if (!modules_.activation()) return stack_.jump(none);
   if (is_child && !selection.is_set()) selection = 0.0;
   std::optional<Value> numbers = numbers_of(selection);
   if (!numbers) return stack_.jump(none);

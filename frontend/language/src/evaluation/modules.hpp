@@ -39,6 +39,8 @@ class ModuleCalls {
 
   /// Counts a user module among those that run from here on.
   void add_name(Name name);
+  /// Binds $parent_modules to how many of these there are.
+  void bind_count();
   /// Keeps the scope around a block for the call of its module.
   void save_block() { block_scopes_.push_back(HeapScopes::acquire(stack_.scope())); }
   void call(const CallSite& site);

@@ -93,7 +93,7 @@ void ValueOperations::make_range(uint16_t flags) {
   const Value step = flags & kHasStep ? values_.pop() : Value(1.0);
   const Value end = values_.pop();
   const Value begin = values_.pop();
-  values_.push(range_of(begin, step, end));
+  values_.push(range_of(begin, step, end, compiler_.dialect().has_nearest_integers));
   if (!(flags & kChecksDirection) || !values_.top().is_range()) return;
   if (step.number() > 0 && end.number() < begin.number())
     stack_.warn("begin is greater than the end, but step is positive", PathBase::kUnit);

@@ -36,8 +36,14 @@ bool is_there(const fs::path& path) {
 
 }  // namespace
 
-std::string NamedFiles::path_of(const std::string& name) {
-  fs::path first = fs::path(unit_folder_) / name;  // `name` alone if it is absolute
+std::string NamedFiles::folder_of(Place call) const {
+  if (!sources_ || call.file == kNoFile) return unit_folder_;
+  const fs::path path = (*sources_)[call.file].path;
+  return path.is_absolute() ? path.parent_path().string() : main_folder_;
+}
+
+std::string NamedFiles::path_of(const std::string& name, Place call) {
+  fs::path first = fs::path(folder_of(call)) / name;  // `name` alone if it is absolute
   if (is_there(first)) return first;
   lookups_.push_back(first.lexically_normal().string());
   const fs::path second = fs::path(main_folder_) / name;
@@ -53,11 +59,11 @@ std::string NamedFiles::path_of(const std::string& name) {
   return second;
 }
 
-NamedFile NamedFiles::find(const std::string& name) {
+NamedFile NamedFiles::find(const std::string& name, Place call) {
   NamedFile file;
   ++finds_;
   if (name.empty()) return file;
-  file.opened = path_of(name);
+  file.opened = path_of(name, call);
   const fs::path path = resolved_file(file.opened);
   struct stat status {};
   file.exists = stat(path.c_str(), &status) == 0;

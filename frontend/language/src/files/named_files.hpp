@@ -23,16 +23,20 @@ struct NamedFile {
 /// Finds those of one evaluation, and notes what was looked at.
 class NamedFiles {
  public:
-  /// The main file's folder is absolute.
-  NamedFiles(Messages& messages, std::string main_folder)
-      : messages_(messages), main_folder_(std::move(main_folder)), unit_folder_(main_folder_) {}
+  /// The main file's folder is absolute. `sources` are given where files are looked for beside the
+  /// file that has the call; else beside the unit's.
+  NamedFiles(Messages& messages, std::string main_folder, const SourceFiles* sources)
+      : messages_(messages),
+        main_folder_(std::move(main_folder)),
+        unit_folder_(main_folder_),
+        sources_(sources) {}
 
   /// Sets the folder of the main or used file whose code is being evaluated.
   void set_unit_folder(std::string_view folder) { unit_folder_ = folder; }
 
-  /// Finds a file in the folder of the code's unit, else in the main file's. An empty name is no
-  /// file.
-  NamedFile find(const std::string& name);
+  /// Finds a file for a call in the folder of its code, else in the main file's. An empty name is
+  /// no file.
+  NamedFile find(const std::string& name, Place call);
 
   /// Absolute paths of the files that were named: those that are there, and those that were tried
   /// and are not.
@@ -42,11 +46,13 @@ class NamedFiles {
   size_t finds() const { return finds_; }
 
  private:
-  std::string path_of(const std::string& name);
+  std::string path_of(const std::string& name, Place call);
+  std::string folder_of(Place call) const;
 
   Messages& messages_;
   std::string main_folder_;
   std::string unit_folder_;
+  const SourceFiles* sources_;
   std::vector<std::string> files_read_;
   std::vector<std::string> lookups_;
   size_t finds_ = 0;

@@ -204,7 +204,7 @@ std::string key_of(const FunctionCall& call, const NamedFile& file, const Reques
 Value look_up(const FunctionCall& call,
               Value (*find)(const FunctionCall&, const NamedFile&, const Request&)) {
   const Request request = request_of(call);
-  const NamedFile file = call.environment.files.find(request.file);
+  const NamedFile file = call.environment.files.find(request.file, call.place);
   if (!file.exists) {
     call.warn("Can't open DXF file '" + request.file + "'!");
     return Value::undef();

@@ -11,13 +11,6 @@ namespace {
 
 Value combined(double year, double month, double day) { return year * 10000 + month * 100 + day; }
 
-// Returns a number as an int; what does not fit becomes the least one.
-int int_of(double number) {
-  constexpr double kEnd = 2147483648.0;
-  const double whole = std::trunc(number);
-  return whole >= -kEnd && whole < kEnd ? static_cast<int>(whole) : INT_MIN;
-}
-
 }  // namespace
 
 Value version(const FunctionCall& call) {
@@ -53,7 +46,8 @@ Value parent_module(const FunctionCall& call) {
   const bool is_wrong = !call.arguments.empty() && !call.arguments[0].is_number();
   if (is_wrong && call.environment.dialect.tells_wrong_arguments) return no_number(call);
   if (is_wrong) return Value::undef();
-  const int level = call.arguments.empty() ? 1 : int_of(call.arguments[0].number());
+  const int level =
+      call.arguments.empty() ? 1 : call.environment.dialect.integer(call.arguments[0].number());
   const auto refuse = [&](std::string_view before, std::string_view after) {
     call.warn(std::string(before) + "arent module index (" + std::to_string(level) + ") " +
               std::string(after));

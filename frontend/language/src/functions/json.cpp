@@ -84,7 +84,7 @@ class ValueMaker {
 
 Value imported_json(const FunctionCall& call) {
   const std::string name(call.arguments[0].is_string() ? call.arguments[0].text() : "");
-  const NamedFile file = call.environment.files.find(name);
+  const NamedFile file = call.environment.files.find(name, call.place);
   std::error_code failed;
   const bool is_folder = std::filesystem::is_directory(file.opened, failed);
   const auto text = read_regular_file(file.opened);

@@ -107,7 +107,10 @@ Value natural_logarithm(const FunctionCall& call) {
 }
 Value sine(const FunctionCall& call) { return of_number(call, sine_of_degrees); }
 Value cosine(const FunctionCall& call) { return of_number(call, cosine_of_degrees); }
-Value tangent(const FunctionCall& call) { return of_number(call, tangent_of_degrees); }
+Value tangent(const FunctionCall& call) {
+  const bool has_nearest_integers = call.environment.dialect.has_nearest_integers;
+  return of_number(call, [=](double x) { return tangent_of_degrees(x, has_nearest_integers); });
+}
 Value arc_sine(const FunctionCall& call) { return of_number(call, arc_sine_degrees); }
 Value arc_cosine(const FunctionCall& call) { return of_number(call, arc_cosine_degrees); }
 Value arc_tangent(const FunctionCall& call) {

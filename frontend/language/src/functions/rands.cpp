@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -77,10 +78,9 @@ size_t next_of_random_numbers(const FunctionCall& call) {
 Value random_numbers(const FunctionCall& call) {
   const auto arguments = call.arguments;
   if (!call.environment.dialect.has_lazy_functions) {
-    for (size_t i = 0; i < arguments.size(); ++i) {
-      if (!arguments[i].is_number()) return no_number(call);
+    if (!std::ranges::all_of(arguments, &Value::is_number)) return no_number(call);
+    for (size_t i = 0; i < arguments.size(); ++i)
       if (!std::isfinite(arguments[i].number())) warn_of_infinite(call, i);
-    }
   }
   if (arguments.size() < call.written || !arguments.back().is_number()) return Value::undef();
   double least = finite_or(arguments[0], -kMostBound), most = finite_or(arguments[1], kMostBound);

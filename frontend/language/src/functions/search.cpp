@@ -17,7 +17,8 @@ constexpr size_t kWorkOfText = 16;  // that is made of a number, to compare its 
 uint32_t unsigned_or(const FunctionCall& call, size_t index, uint32_t otherwise) {
   if (index >= call.arguments.size()) return otherwise;
   const Value& argument = call.arguments[index];
-  return argument.is_number() ? low_bits(argument.number()) : 0;
+  if (!argument.is_number()) return 0;
+  return call.environment.dialect.unsigned_integer(argument.number());
 }
 
 // What search() looks in, and for how many matches.

@@ -17,16 +17,16 @@ namespace {
 
 constexpr uint32_t kMostRangeValues = 10000;  // chr() ignores ranges of so many and more
 
-void append_character(std::string& out, double number) {
-  const uint32_t code_point = number > 0 ? low_bits(number) : 0;
+void append_character(std::string& out, double number, const Dialect& dialect) {
+  const uint32_t code_point = number > 0 ? dialect.unsigned_integer(number) : 0;
   if (code_point != 0 && is_code_point(code_point)) append_code_point(out, code_point);
 }
 
-void append_range_characters(std::string& out, const RangeObject& range) {
+void append_range_characters(std::string& out, const RangeObject& range, const Dialect& dialect) {
   if (range.count() >= kMostRangeValues) return;
   const uint32_t steps = range.steps();
   count_work(steps);
-  for (uint32_t i = 0; i < steps; ++i) append_character(out, range.value(i));
+  for (uint32_t i = 0; i < steps; ++i) append_character(out, range.value(i), dialect);
 }
 
 // Calls `visit` for the elements of a vector that are no vectors, or for the one value. Vectors may
@@ -50,10 +50,10 @@ void visit_leaves(const Value& value, Visit visit) {
   }
 }
 
-void append_characters(std::string& out, const Value& value) {
+void append_characters(std::string& out, const Value& value, const Dialect& dialect) {
   visit_leaves(value, [&](const Value& leaf) {
-    if (leaf.is_number()) append_character(out, leaf.number());
-    if (leaf.is_range()) append_range_characters(out, leaf.range());
+    if (leaf.is_number()) append_character(out, leaf.number(), dialect);
+    if (leaf.is_range()) append_range_characters(out, leaf.range(), dialect);
     check_text_size(out.size());
   });
 }
@@ -87,7 +87,8 @@ Value characters(const FunctionCall& call) {
     for (const Value& argument : call.arguments)
       warn_of_long_ranges(argument, call.environment.messages);
   }
-  for (const Value& argument : call.arguments) append_characters(text, argument);
+  for (const Value& argument : call.arguments)
+    append_characters(text, argument, call.environment.dialect);
   return make_string(text);
 }
 

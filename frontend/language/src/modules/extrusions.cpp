@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/number_text.hpp"
@@ -28,7 +29,7 @@ void note_file(const BuiltinCall& call, const char* module) {
 /// The arguments of an extrusion that reads a file itself, up to `origin`.
 NamedFile add_file(const BuiltinCall& call, NodeTree& tree, const std::string& name,
                    const Value& layer, double x, double y) {
-  const NamedFile file = call.environment.files.find(name);
+  const NamedFile file = call.environment.files.find(name, call.place);
   add_escaped(tree, "file", file.path);
   add_escaped(tree, "layer", str_or_nothing(layer));
   add_numbers(tree, "origin", {x, y});
@@ -101,10 +102,10 @@ Made make_linear_extrude(const BuiltinCall& call, NodeTree& tree) {
   }
   add(tree, "height", linear::read_height(call));
   add_bool(tree, "center", is_true_bool(given[linear::kCenter]));
-  add_integer(tree, "convexity", std::max(integer_or(given[linear::kConvexity], 0), 1));
+  add_integer(tree, "convexity", std::max(integer_or(call, given[linear::kConvexity], 0), 1));
   const Value& twist = given[linear::kTwist];
   if (is_finite_number(twist) && twist.number() != 0) add(tree, "twist", twist);
-  const int slices = integer_or(given[linear::kSlices], 0);
+  const int slices = integer_or(call, given[linear::kSlices], 0);
   if (slices >= 1) add_integer(tree, "slices", slices);
   add_numbers(tree, "scale", scale);
   if (slices < 1) add_fragments(tree, fragments_of(call));
@@ -117,14 +118,14 @@ namespace {
 /// finite number.
 std::optional<int64_t> read_count(const BuiltinCall& call, const Value& value,
                                   const std::string& name, int64_t least) {
-  if (is_finite_number(value))
-    return std::max(static_cast<int64_t>(low_bits(std::max(value.number(), 0.0))), least);
-  if (value.is_number()) {
+  if (value.is_number() && !is_finite_number(value)) {
     warn(call, "linear_extrude(..., " + name + "=" + shown(value) +
                    ") argument cannot be infinite or nan");
-  } else if (is_given(value)) {
-    warn(call, wrong_type("linear_extrude", name, "number", value));
+    return std::nullopt;
   }
+  if (value.is_number())
+    return std::max(static_cast<int64_t>(nearest_count(value.number())), least);
+  if (is_given(value)) warn(call, wrong_type("linear_extrude", name, "number", value));
   return std::nullopt;
 }
 
@@ -142,40 +143,44 @@ void say_error(const BuiltinCall& call, std::string text) {
   call.environment.messages.say(MessageGroup::kError, std::move(text));
 }
 
-/// Where the origin of an extruded figure goes.
-using Sweep = std::array<double, 3>;
+using Vector = std::array<double, 3>;
 
-/// The length as OpenSCAD computes it: it is 0 or infinite where the squares are.
-double length_of(const Sweep& v) { return std::sqrt(v[0] * v[0] + (v[1] * v[1] + v[2] * v[2])); }
+double length_of(const Vector& vector) {
+  return std::sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+}
 
-/// Reads `v`; of one that is wrong the numbers before its first element that is none.
-Sweep read_direction(const BuiltinCall& call, const Value& v) {
-  Sweep along = {0, 0, 1};
+/// Reads a `v`; one that is wrong gives the numbers before its first element that is none.
+Vector read_direction(const BuiltinCall& call, const Value& v) {
+  Vector direction = {0, 0, 1};
+  if (!is_given(v)) return direction;
   size_t read = 0;
-  if (v.is_vector() && v.elements().size() == along.size()) {
-    while (read < along.size() && v.elements()[read].is_number()) {
-      along[read] = v.elements()[read].number();
+  if (v.is_vector() && v.elements().size() == direction.size()) {
+    while (read < direction.size() && v.elements()[read].is_number()) {
+      direction[read] = v.elements()[read].number();
       ++read;
     }
   }
-  if (read < along.size()) say_error(call, "v when specified should be a 3d vector.");
-  return along;
+  if (read < direction.size()) say_error(call, "v when specified should be a 3d vector.");
+  return direction;
 }
 
-/// Reads the sweep. A height, which may be negative, gives `v` its length; below the
-/// figure's plane nothing goes.
-Sweep read_sweep(const BuiltinCall& call, const Value& v, const Value& named_height,
-                 const Value& h) {
-  Sweep along = is_given(v) ? read_direction(call, v) : Sweep{0, 0, 100};
+/// Returns the vector along which is extruded, without what leads down.
+Vector read_sweep(const BuiltinCall& call, const Value& v, const Value& named_height,
+                  const Value& h) {
+  Vector sweep = read_direction(call, v);
   const Value& height = one_of(call, named_height, h, "height", "h");
-  if (is_given(height)) {
-    if (!is_finite_number(height)) say_error(call, "height when specified should be a number.");
-    const double wanted = is_finite_number(height) ? height.number() : 100;
-    const double length = length_of(along);
-    for (double& part : along) part = (length > 0 ? part / length : part) * wanted;
+  if (is_given(height) || !is_given(v)) {
+    constexpr double kDefault = 100;
+    const double length = length_of(sweep);
+    for (double& part : sweep) {
+      if (length > 0) part /= length;
+      part *= is_finite_number(height) ? height.number() : kDefault;
+    }
   }
-  if (along[2] <= 0) along[2] = 0;
-  return along;
+  if (is_given(height) && !is_finite_number(height))
+    say_error(call, "height when specified should be a number.");
+  if (sweep[2] <= 0) sweep[2] = 0;
+  return sweep;
 }
 
 }  // namespace
@@ -184,9 +189,7 @@ Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kHeight, kV, kScale, kCenter, kTwist, kSlices, kSegments, kConvexity, kH };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kLinearExtrude);
-  Sweep direction = read_sweep(call, given[kV], given[kHeight], given[kH]);
-  const double height = length_of(direction);
-  for (double& part : direction) part /= height;
+  const Vector sweep = read_sweep(call, given[kV], given[kHeight], given[kH]);
   std::array<double, 2> scale = {1, 1};
   double x = 1, y = 1;
   if (is_finite_number(given[kScale])) {
@@ -199,9 +202,10 @@ Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
   for (double& factor : scale) factor = std::max(factor, 0.0);
   const auto slices = read_count(call, given[kSlices], "slices", 1);
   const auto segments = read_count(call, given[kSegments], "segments", 0);
+  const double height = length_of(sweep);
+  const Vector direction = {sweep[0] / height, sweep[1] / height, sweep[2] / height};
   add(tree, "height", height);
-  if (height > 0 && direction[2] < 1)
-    add_numbers(tree, "v", direction, ArgumentStyle::kGeneralSpaced);
+  if (direction[2] < 1) add_numbers(tree, "v", direction, ArgumentStyle::kGeneralSpaced);
   if (is_true_bool(given[kCenter])) add_bool(tree, "center", true);
   const Value& twist = given[kTwist];
   if (is_finite_number(twist) && twist.number() != 0) add(tree, "twist", twist);
@@ -213,7 +217,10 @@ Made make_linear_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
     add(tree, "scale", scale[0]);
   }
   if (!slices || !segments) add_fragments(tree, fragments_of(call));
-  const int convexity = integer_or(given[kConvexity], 1);
+  const Value& number = given[kConvexity];
+  constexpr double kMost = std::numeric_limits<uint32_t>::max();
+  const bool has_convexity = number.is_number() && number.number() <= kMost;
+  const uint32_t convexity = has_convexity ? nearest_count(number.number()) : 1;
   if (convexity > 1) add_integer(tree, "convexity", convexity);
   return Made::kNode;
 }
@@ -228,12 +235,12 @@ Made make_rotate_extrude_2026(const BuiltinCall& call, NodeTree& tree) {
   double start = has_angle ? 0 : 180;
   if (is_finite_number(given[kStart])) {
     start = given[kStart].number();
-  } else if (!has_angle && integer_or(fragments.number, 0) % 2 == 1) {
+  } else if (!has_angle && integer_or(call, fragments.number, 0) % 2 != 0) {
     deprecate(call,
               "In future releases, rotational extrusion without \"angle\" will start at zero, the "
               "+X axis.  Set start=180 to explicitly start on the -X axis.");
   }
-  const int convexity = integer_or(given[kConvexity], 0);
+  const int convexity = integer_or(call, given[kConvexity], 0);
   add(tree, "angle", read_angle(angle));
   add(tree, "start", start);
   add_integer(tree, "convexity", convexity <= 0 ? 2 : convexity);
@@ -258,7 +265,7 @@ Made make_rotate_extrude(const BuiltinCall& call, NodeTree& tree) {
     add(tree, "scale", scale <= 0 ? 1 : scale);
     add_integer(tree, "timestamp", file.timestamp);
   }
-  const int convexity = integer_or(given[rotated::kConvexity], 0);
+  const int convexity = integer_or(call, given[rotated::kConvexity], 0);
   add(tree, "angle", read_angle(given[rotated::kAngle]));
   add_integer(tree, "convexity", convexity <= 0 ? 2 : convexity);
   add_fragments(tree, fragments_of(call));

@@ -71,7 +71,7 @@ Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kImport);
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
-  const NamedFile file = call.environment.files.find(name);
+  const NamedFile file = call.environment.files.find(name, call.place);
   const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
   double x = 0, y = 0;
   const bool is_origin = read_vec2(given[kOrigin], x, y) && std::isfinite(x) && std::isfinite(y);
@@ -88,7 +88,7 @@ Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
     add(tree, "dpi", dpi);
   }
   add(tree, "scale", scale <= 0 ? 1 : scale);
-  add_integer(tree, "convexity", std::max(integer_or(given[kConvexity], 0), 1));
+  add_integer(tree, "convexity", std::max(integer_or(call, given[kConvexity], 0), 1));
   add_fragments(tree, fragments_of(call));
   add_integer(tree, "timestamp", file.timestamp);
   return Made::kNode;
@@ -101,7 +101,7 @@ Made make_import_2026(const BuiltinCall& call, NodeTree& tree) {
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kImport);
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
-  const NamedFile file = call.environment.files.find(name);
+  const NamedFile file = call.environment.files.find(name, call.place);
   const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
   const std::string id = str_or_nothing(given[kId]);
   double x = 0, y = 0;
@@ -119,7 +119,7 @@ Made make_import_2026(const BuiltinCall& call, NodeTree& tree) {
   if (is_svg(file.path)) add(tree, "dpi", dpi);
   add(tree, "scale", scale <= 0 ? 1 : scale);
   add_bool(tree, "center", is_true_bool(given[kCenter]));
-  add_integer(tree, "convexity", std::max(integer_or(given[kConvexity], 0), 1));
+  add_integer(tree, "convexity", std::max(integer_or(call, given[kConvexity], 0), 1));
   add_fragments(tree, fragments_of(call));
   add_integer(tree, "timestamp", file.timestamp);
   return Made::kNode;
@@ -137,7 +137,7 @@ Made make_surface(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kMap, kCentered, kConvexity, kInvert };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kSurface);
-  const NamedFile file = call.environment.files.find(str_or_nothing(given[kMap]));
+  const NamedFile file = call.environment.files.find(str_or_nothing(given[kMap]), call.place);
   add_escaped(tree, "file", file.path);
   add_bool(tree, "center", is_true_bool(given[kCentered]));
   add_bool(tree, "invert", is_true_bool(given[kInvert]));

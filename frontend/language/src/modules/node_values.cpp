@@ -1,7 +1,6 @@
 #include "modules/node_values.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,12 +9,8 @@
 
 namespace language {
 
-int integer_or(const Value& value, int otherwise) {
-  if (!value.is_number()) return otherwise;
-  constexpr double kBeyond = 2147483648.0;  // 2^31
-  const double number = value.number();
-  const bool fits = number > -kBeyond - 1 && number < kBeyond;  // false for nan
-  return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
+int integer_or(const BuiltinCall& call, const Value& value, int otherwise) {
+  return value.is_number() ? call.environment.dialect.integer(value.number()) : otherwise;
 }
 
 std::string str_or_nothing(const Value& value) {

@@ -12,9 +12,8 @@
 
 namespace language {
 
-/// Returns the number as C casts it to int, which yields the least int for all that does not fit;
-/// `otherwise` if the value is none.
-int integer_or(const Value& value, int otherwise);
+/// Returns the number as an int; `otherwise` if the value is none.
+int integer_or(const BuiltinCall& call, const Value& value, int otherwise);
 /// Returns the text of a value as str() makes it; nothing of one that is not given.
 std::string str_or_nothing(const Value& value);
 /// Returns whether the value is the boolean true.
@@ -41,8 +40,11 @@ struct Fragments {
 Fragments fragments_of(const BuiltinCall& call);
 /// The same as primitives take them: $fs and $fa are at least 0.01, with a warning for less.
 Fragments clamped_fragments(const BuiltinCall& call);
-/// Says what clamped_fragments() would: primitives without fragments check these, too.
-inline void check_fragments(const BuiltinCall& call) { clamped_fragments(call); }
+/// Says what clamped_fragments() would, for primitives without fragments, which 2021.01 checks,
+/// too.
+inline void check_fragments(const BuiltinCall& call) {
+  if (call.environment.dialect.checks_unused_fragments) clamped_fragments(call);
+}
 
 // The following fill in the last node of a tree.
 inline void set_kind(NodeTree& tree, NodeKind kind) { tree.nodes.back().kind = kind; }

@@ -9,8 +9,8 @@ namespace language {
 namespace {
 
 /// The convexity of the nodes that write it without a sign.
-int64_t unsigned_convexity(const Value& value) {
-  return static_cast<uint32_t>(integer_or(value, 0));
+int64_t unsigned_convexity(const BuiltinCall& call, const Value& value) {
+  return static_cast<uint32_t>(integer_or(call, value, 0));
 }
 
 /// Reads resize()'s `auto`: 0 or 1 for each axis.
@@ -31,7 +31,7 @@ std::array<double, 3> read_auto(const Value& value) {
 Made make_projection(const BuiltinCall& call, NodeTree& tree) {
   set_kind(tree, NodeKind::kProjection);
   add_bool(tree, "cut", is_true_bool(call.parameters[0]));
-  add_integer(tree, "convexity", integer_or(call.parameters[1], 0));
+  add_integer(tree, "convexity", integer_or(call, call.parameters[1], 0));
   return Made::kNode;
 }
 
@@ -68,25 +68,32 @@ Made make_roof(const BuiltinCall& call, NodeTree& tree) {
     warn(call, "Unknown roof method '" + method + "'. Using 'voronoi'.");
     method = kDefault;
   }
+  const Value& convexity = call.parameters[1];
   Fragments fragments = fragments_of(call);
-  if (fragments.number > 0) fragments = {fragments.number, 360 / fragments.number, 0};
+  if (fragments.number > 0) {
+    fragments = {fragments.number, 360 / fragments.number, 0};
+  } else {
+    constexpr double kLeast = 0.01;
+    for (double* const setting : {&fragments.angle, &fragments.size})
+      if (*setting < kLeast) *setting = kLeast;
+  }
   add_raw(tree, "method", method);
   add(tree, "$fa", fragments.angle);
   add(tree, "$fs", fragments.size);
   add(tree, "$fn", fragments.number);
-  add_integer(tree, "convexity", integer_or(call.parameters[1], 1));
+  add_integer(tree, "convexity", std::max(is_finite_number(convexity) ? integer_or(call, convexity, 1) : 1, 1));
   return Made::kNode;
 }
 
 Made make_minkowski(const BuiltinCall& call, NodeTree& tree) {
   set_kind(tree, NodeKind::kMinkowski);
-  add_integer(tree, "convexity", unsigned_convexity(call.parameters[0]));
+  add_integer(tree, "convexity", unsigned_convexity(call, call.parameters[0]));
   return Made::kNode;
 }
 
 Made make_render(const BuiltinCall& call, NodeTree& tree) {
   set_kind(tree, NodeKind::kRender);
-  add_integer(tree, "convexity", integer_or(call.parameters[0], 1));
+  add_integer(tree, "convexity", integer_or(call, call.parameters[0], 1));
   return Made::kNode;
 }
 
@@ -102,7 +109,7 @@ Made make_resize(const BuiltinCall& call, NodeTree& tree) {
   }
   add_numbers(tree, "newsize", sizes, ArgumentStyle::kGeneralTight);
   add_numbers(tree, "auto", read_auto(call.parameters[1]), ArgumentStyle::kGeneralTight);
-  add_integer(tree, "convexity", unsigned_convexity(call.parameters[2]));
+  add_integer(tree, "convexity", unsigned_convexity(call, call.parameters[2]));
   return Made::kNode;
 }
 

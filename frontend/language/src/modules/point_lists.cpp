@@ -53,8 +53,8 @@ void add_list(NodeTree& tree, ArgumentName name, const Value& list) {
   add(tree, name, std::move(kept), ArgumentStyle::kEcho);
 }
 
-void add_convexity(NodeTree& tree, const Value& convexity) {
-  add_integer(tree, "convexity", std::max(integer_or(convexity, 0), 1));
+void add_convexity(const BuiltinCall& call, NodeTree& tree, const Value& convexity) {
+  add_integer(tree, "convexity", std::max(integer_or(call, convexity, 0), 1));
 }
 
 /// Reads lists of points and of their numbers as 2026 does: what is wrong is told, and left out or
@@ -78,13 +78,14 @@ class CheckedLists {
     return points;
   }
 
-  /// Reads lists of at least so many numbers of points.
-  Value index_lists(const Value& lists, const char* name, size_t points, size_t least) {
-    Value read = make_vector();
+  /// Reads lists of at least so many numbers of points; nothing if the value is no vector.
+  std::optional<Value> index_lists(const Value& lists, const char* name, size_t points,
+                                   size_t least) {
     if (!lists.is_vector()) {
       say(name, lists, "a vector of vector of point indices");
-      return read;
+      return std::nullopt;
     }
+    Value read = make_vector();
     size_t number = 0;
     for (const Value& list : lists.elements()) {
       const std::string where = std::string(name) + "[" + std::to_string(number++) + "]";
@@ -128,14 +129,13 @@ class CheckedLists {
         say(place, list[i], "a number");
         continue;
       }
-      const double index = std::trunc(std::max(list[i].number(), 0.0));
-      if (index < static_cast<double>(points)) {
-        append_element(indices, index);
+      const uint32_t index = nearest_count(list[i].number());
+      if (index < points) {
+        append_element(indices, static_cast<double>(index));
         continue;
       }
-      std::string text;
-      append_general_number(text, index);
-      warn(call_, "Point index " + text + " is out of bounds (from " + place + ")");
+      warn(call_,
+           "Point index " + std::to_string(index) + " is out of bounds (from " + place + ")");
     }
     return indices;
   }
@@ -157,7 +157,6 @@ Made make_polyhedron_2026(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kPoints, kFaces, kConvexity, kTriangles };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kPolyhedron);
-  check_fragments(call);
   CheckedLists lists(call, 3);
   const auto points = lists.points(given[kPoints]);
   Value faces = make_vector();
@@ -171,9 +170,12 @@ Made make_polyhedron_2026(const BuiltinCall& call, NodeTree& tree) {
                                     call.place, PathBase::kMainFile);
     }
     constexpr size_t kLeastCorners = 3;
-    faces = lists.index_lists(given[has_triangles ? kTriangles : kFaces], "faces",
-                              points->elements().size(), kLeastCorners);
-    convexity = std::max(integer_or(given[kConvexity], 0), 1);
+    const auto read = lists.index_lists(given[has_triangles ? kTriangles : kFaces], "faces",
+                                        points->elements().size(), kLeastCorners);
+    if (read) {
+      faces = *read;
+      convexity = std::max(integer_or(call, given[kConvexity], 0), 1);
+    }
   }
   add(tree, "points", points.value_or(make_vector()), ArgumentStyle::kGeneralLists);
   add(tree, "faces", std::move(faces), ArgumentStyle::kGeneralLists);
@@ -185,17 +187,15 @@ Made make_polygon_2026(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kPoints, kPaths, kConvexity };
   const auto& given = call.parameters;
   set_kind(tree, NodeKind::kPolygon);
-  check_fragments(call);
   CheckedLists lists(call, 2);
   const auto points = lists.points(given[kPoints]);
-  Value paths = Value::undef();
-  if (points && is_given(given[kPaths])) {
-    Value read = lists.index_lists(given[kPaths], "paths", points->elements().size(), 0);
-    if (!read.elements().empty()) paths = std::move(read);
-  }
+  auto paths = points ? std::optional(make_vector()) : std::nullopt;
+  if (points && is_given(given[kPaths]))
+    paths = lists.index_lists(given[kPaths], "paths", points->elements().size(), 0);
+  const bool has_paths = paths && !paths->elements().empty();
   add(tree, "points", points.value_or(make_vector()), ArgumentStyle::kGeneralLists);
-  add(tree, "paths", std::move(paths), ArgumentStyle::kGeneralLists);
-  add_integer(tree, "convexity", points ? std::max(integer_or(given[kConvexity], 0), 1) : 1);
+  add(tree, "paths", has_paths ? *paths : Value::undef(), ArgumentStyle::kGeneralLists);
+  add_integer(tree, "convexity", paths ? std::max(integer_or(call, given[kConvexity], 0), 1) : 1);
   return Made::kNode;
 }
 
@@ -212,7 +212,7 @@ Made make_polyhedron(const BuiltinCall& call, NodeTree& tree) {
   }
   add_list(tree, "points", given[kPoints]);
   add_list(tree, "faces", given[has_triangles ? kTriangles : kFaces]);
-  add_convexity(tree, given[kConvexity]);
+  add_convexity(call, tree, given[kConvexity]);
   return Made::kNode;
 }
 
@@ -221,7 +221,7 @@ Made make_polygon(const BuiltinCall& call, NodeTree& tree) {
   check_fragments(call);
   add_list(tree, "points", call.parameters[0]);
   add_list(tree, "paths", call.parameters[1]);
-  add_convexity(tree, call.parameters[2]);
+  add_convexity(call, tree, call.parameters[2]);
   return Made::kNode;
 }
 

@@ -163,7 +163,7 @@ Made make_mirror(const BuiltinCall& call, NodeTree& tree) {
     const double squared = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     for (size_t row = 0; row < 3; ++row) {
       for (size_t column = 0; column < 3; ++column) {
-        const double product = 2 * n[row] * n[column] / squared;
+        const double product = 2 * n[column] * n[row] / squared;
         matrix[row][column] = row == column ? 1 - product : -product;
       }
     }

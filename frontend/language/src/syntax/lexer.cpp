@@ -87,7 +87,7 @@ inline bool Lexer::lex_word(Token& token) {
                  "\") will be removed in future releases.",
              token.place);
     }
-  } else if (length == 1 && *begin == '$') {
+  } else if (length == 1 && *begin == '$' && !dialect_.has_bare_dollars) {
     lex_sign(token);
     return true;
   }
@@ -268,7 +268,8 @@ bool Lexer::begins_path() const {
 /// Skips `<`, and the blanks before it.
 void Lexer::skip_to_path() {
   for (; *cursor_ != '<'; ++cursor_) {
-    if (*cursor_ == '\n') source_->note_uncounted_feed(offset_of(cursor_));
+    if (*cursor_ == '\n' && !dialect_.counts_lines_of_paths)
+      source_->note_uncounted_feed(offset_of(cursor_));
   }
   ++cursor_;
 }
@@ -303,6 +304,7 @@ bool Lexer::lex_include(Token& token) {
   std::string path_folder;
   last_path_name_.clear();
   skip_to_path();
+  const char* const path_begin = cursor_;
   while (reach_path_part("in 'include<>'")) {
     const std::string_view part(cursor_, path_part_length(cursor_, end_));
     const size_t slash = part.rfind('/');
@@ -315,7 +317,8 @@ bool Lexer::lex_include(Token& token) {
     return true;
   }
   ++cursor_;
-  const FileId file = lookup_.include(named_file(path_folder + last_path_name_, path_place(token)));
+  const FileId file =
+      lookup_.include(named_file(path_folder + last_path_name_, path_place(token, path_begin)));
   check_warnings();
   if (file == kNoFile) return false;
   last_path_name_.clear();
@@ -332,6 +335,7 @@ bool Lexer::lex_include(Token& token) {
 void Lexer::lex_use(Token& token) {
   token.kind = TokenKind::kUse;
   skip_to_path();
+  const char* const path_begin = cursor_;
   while (reach_path_part("'use<>'")) {
     const size_t length = path_part_length(cursor_, end_);
     last_path_name_.assign(cursor_, length);
@@ -339,7 +343,7 @@ void Lexer::lex_use(Token& token) {
   }
   if (cursor_ == end_) return lex_unterminated(token, "use statement");
   ++cursor_;
-  lookup_.use(named_file(last_path_name_, path_place(token)));
+  lookup_.use(named_file(last_path_name_, path_place(token, path_begin)));
   check_warnings();
 }
 

@@ -1,6 +1,7 @@
 // Splits the text of a file, and of the files that it includes, into tokens (LANGUAGE.md, "Text").
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -110,9 +111,11 @@ class Lexer {
   FileReference named_file(std::string_view name, Place place) const {
     return {name, place, folder_, being_included_};
   }
-  /// Returns where a path is looked for, behind which the cursor stands.
-  Place path_place(const Token& token) const {
-    return dialect_.counts_lines_of_paths ? position() : token.place;
+  /// Returns where a path is looked for, behind which the cursor stands: of several lines, on the
+  /// last one where its lines are counted.
+  Place path_place(const Token& token, const char* path_begin) const {
+    const bool has_lines = std::find(path_begin, cursor_, '\n') != cursor_;
+    return has_lines && dialect_.counts_lines_of_paths ? position() : token.place;
   }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);

@@ -79,8 +79,10 @@ void Parser::parse_assignment(ScopeBuilder& scope) {
 }
 
 void Parser::add(ScopeBuilder& scope, const Assignment& assignment) {
-  const Place first = scope.add(assignment);
-  if (first.file == kNoFile || is_behind_file_) return;
+  const auto overwritten = scope.add(assignment);
+  if (!overwritten || is_behind_file_) return;
+  const Place first =
+      program_.dialect.tells_first_assignment ? overwritten->first : overwritten->place;
   if (is_preparsing()) throw NotPreparsed();
   const size_t before = messages_.warnings();
   const bool is_said = say_overwritten(assignment, first);

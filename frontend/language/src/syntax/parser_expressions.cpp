@@ -113,7 +113,13 @@ const Expression* Parser::parse_unary() {
 const Expression* Parser::parse_prefixed(UnaryOperator op) {
   const Nested nested(*this, 1);
   const Place start = take_place();
-  return make<UnaryExpression>(ExpressionKind::kUnary, start, op, parse_unary());
+  const Expression* operand = parse_unary();
+  if (op == UnaryOperator::kNegate && operand->kind == ExpressionKind::kNumber &&
+      program_.dialect.has_negative_numbers) {
+    const double number = as<NumberExpression>(*operand).value;
+    return make<NumberExpression>(ExpressionKind::kNumber, start, -number);
+  }
+  return make<UnaryExpression>(ExpressionKind::kUnary, start, op, operand);
 }
 
 /// Reads the calls, indices and members behind an operand, and its exponent. Calls nest to the

@@ -1,7 +1,7 @@
 // Gathers what stands in a scope.
 #pragma once
 
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "base/name_list.hpp"
@@ -50,17 +50,20 @@ class ScopeBuilder {
 
   bool is_recorded() const { return record_; }
 
-  /// Adds an assignment. Returns the place of the one that it overwrites, which has no file if
-  /// there is none: that one keeps its position in the list.
-  Place add(const Assignment& assignment) {
+  /// Adds an assignment. One that it overwrites keeps its position in the list. Returns it, or
+  /// null.
+  std::optional<Assignment> add(const Assignment& assignment) {
     note(assignment);
     Assignment* older = assignments_.find(assignment.name);
     if (!older) {
       assignments_.push(assignment);
-      return {};
+      return std::nullopt;
     }
+    if (older->first.file == kNoFile) older->first = older->place;
+    const Assignment overwritten = *older;
     older->value = assignment.value;
-    return std::exchange(older->place, assignment.place);
+    older->place = assignment.place;
+    return overwritten;
   }
   void add(const FunctionDefinition& definition) { replace(functions_, definition); }
   void add(const ModuleDefinition& definition) { replace(modules_, definition); }

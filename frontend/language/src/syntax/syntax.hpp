@@ -164,7 +164,8 @@ const Node& as(const Expression& expression) {
 struct Assignment {
   Name name;
   const Expression* value;
-  Place place;  // of the name; where a scope assigns it twice, of the last
+  Place place;    // of the name; where a scope assigns it twice, of the last
+  Place first{};  // where a scope assigns it twice, of the first; else it has no file
 };
 
 struct Scope;

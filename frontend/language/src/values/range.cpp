@@ -17,16 +17,17 @@ uint32_t RangeObject::count() const {
   if (std::isinf(begin) || std::isinf(end) || step == 0) return kMost;
   // A quotient that rounding has put just below an integer counts as that integer.
   const double steps = std::nextafter((end - begin) / step, double{kMost});
-  const uint32_t whole = low_bits(steps);
+  const uint32_t whole = has_nearest_count ? nearest_count(steps) : low_bits(steps);
   return whole == kMost ? kMost : whole + 1;
 }
 
-Value make_range(double begin, double step, double end) {
+Value make_range(double begin, double step, double end, bool has_nearest_count) {
   auto* range = new (allocate_object(sizeof(RangeObject))) RangeObject;
   range->type = ValueType::kRange;
   range->begin = begin;
   range->step = step;
   range->end = end;
+  range->has_nearest_count = has_nearest_count;
   return Value::adopt(range);
 }
 
@@ -37,9 +38,9 @@ Value range_of(const Value& begin, const Value& end, RangeProblem& problem) {
   return make_range(begin.number(), 1, end.number());
 }
 
-Value range_of(const Value& begin, const Value& step, const Value& end) {
+Value range_of(const Value& begin, const Value& step, const Value& end, bool has_nearest_count) {
   if (!begin.is_number() || !step.is_number() || !end.is_number()) return Value::undef();
-  return make_range(begin.number(), step.number(), end.number());
+  return make_range(begin.number(), step.number(), end.number(), has_nearest_count);
 }
 
 }  // namespace language

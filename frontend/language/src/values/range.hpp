@@ -9,9 +9,11 @@ namespace language {
 
 struct RangeObject : SharedObject {
   double begin, step, end;
+  bool
+      has_nearest_count;  // of 2^32 and more values it counts the most it can; else they are folded
 
-  /// Returns how many values it has, by OpenSCAD's rules (LANGUAGE.md, "Values"), which fold counts
-  /// of 2^32 and more. A step of zero counts without yielding anything: see steps().
+  /// Returns how many values it has, by OpenSCAD's rules (LANGUAGE.md, "Values"). A step of zero
+  /// counts without yielding anything: see steps().
   uint32_t count() const;
   /// Returns how many values a loop over it sees.
   uint32_t steps() const { return step == 0 ? 0 : count(); }
@@ -20,7 +22,7 @@ struct RangeObject : SharedObject {
   double value(uint32_t number) const { return number == 0 ? begin : begin + step * number; }
 };
 
-Value make_range(double begin, double step, double end);
+Value make_range(double begin, double step, double end, bool has_nearest_count = false);
 
 /// What is said of a range that is written [begin : end].
 struct RangeProblem {
@@ -29,7 +31,8 @@ struct RangeProblem {
 /// Returns the range of [begin : end], or of [begin : step : end] if `step` is given. Undef unless
 /// all are numbers.
 Value range_of(const Value& begin, const Value& end, RangeProblem& problem);
-Value range_of(const Value& begin, const Value& step, const Value& end);
+Value range_of(const Value& begin, const Value& step, const Value& end,
+               bool has_nearest_count = false);
 
 inline const RangeObject& Value::range() const {
   return static_cast<const RangeObject&>(*payload_.object);
