@@ -19,11 +19,10 @@ std::array<double, 2> scaled(double size, const Vec2& v) {
 language::TextMetrics metrics_of(const MeasuredText& measured, const language::TextRequest& text) {
   const Vec2 offset = measured.offset(align_of(text.halign, kHorizontalWords),
                                       align_of(text.valign, kVerticalWords));
+  const bool has_ink = !measured.box().empty();
   language::TextMetrics result;
-  if (!measured.box().empty()) {
-    result.position = scaled(text.size, measured.box().min + offset);
-    result.size = scaled(text.size, measured.box().max - measured.box().min);
-  }
+  result.position = scaled(text.size, has_ink ? measured.box().min + offset : Vec2{0, 0});
+  result.size = scaled(text.size, has_ink ? measured.box().max - measured.box().min : Vec2{0, 0});
   result.ascent = measured.ascent() / kOutlineUnits * text.size;
   result.descent = measured.descent() / kOutlineUnits * text.size;
   result.offset = scaled(text.size, offset);

@@ -47,6 +47,23 @@ TEST(Dialect, CountsLinesWithinPaths) {
             "WARNING: module cube() does not support child modules in file design.scad, line 2\n");
 }
 
+TEST(Dialect, CountsReturnsWithinPaths) {
+  const std::string program = "use <a\r\nnone.scad>\ncube(1) sphere();";
+  const auto line_of_last = [](const std::string& said) { return said.substr(said.size() - 2); };
+  EXPECT_EQ(line_of_last(said_2026(program)), "4\n");
+  EXPECT_EQ(line_of_last(said_2021(program)), "2\n");
+}
+
+TEST(Dialect, CountsLinesOfPathsInParserErrors) {
+  const BesideFiles files = {{"quiet.scad", ""}};
+  const auto line_of_error = [&](const std::string& program) {
+    const std::string said = said_2026(program, files);
+    return said.substr(said.find("scad, line ", said.find("ERROR")) + 11, 1);
+  };
+  EXPECT_EQ(line_of_error("include\n<quiet.scad>\necho(1;"), "2");
+  EXPECT_EQ(line_of_error("include <\nquiet.scad>\n\necho(1;"), "4");
+}
+
 TEST(Dialect, CountsLinesBeforePaths) {
   const auto lines = [](const std::string& first, const std::string& second) {
     const std::string end = " does not support child modules in file design.scad, line ";

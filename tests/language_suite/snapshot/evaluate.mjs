@@ -1,5 +1,5 @@
 // Evaluates designs by OpenSCAD's snapshot of 2025.07.18. Each line of the standard input is a job, a JSON
-// object: `files` by path, `copies` of this computer's files by path, `arguments` of the command line,
+// object: `folder`, where the program is started, `files` by path, `copies` of this computer's files by path, `arguments` of the command line,
 // `wanted`, a path that is read afterwards. Each job is answered by a line: `status`, `said` (the messages),
 // `made` (the text of the wanted file, or null) and `ms` (what it took, its start left out). An instance
 // of the program runs once; the next one is made while it is not needed yet.
@@ -19,8 +19,8 @@ async function makeInstance() {
 }
 
 function answer({ instance, said }, job) {
-  const folder = "/design";
-  instance.FS.mkdir(folder);
+  const folder = job.folder;
+  instance.FS.mkdirTree(folder);
   instance.FS.chdir(folder);
   const write = (path, bytes) => {
     const whole = path.startsWith("/") ? path : `${folder}/${path}`;

@@ -24,14 +24,14 @@ class Snapshot:
             self.process.stdin.close()
             self.process.wait()
 
-    def run(self, arguments, wanted, files, copies):
+    def run(self, arguments, wanted, files, copies, folder="/design"):
         """Returns the answer of evaluate.mjs: `status` (0, 1, or what has crashed), `said` and `made`."""
         if self.jobs % JOBS == 0:
             self.close()
             self.process = subprocess.Popen(["node", os.path.join(HERE, "evaluate.mjs"), PACKAGE],
                                             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.jobs += 1
-        job = {"files": files, "copies": copies, "arguments": arguments, "wanted": wanted}
+        job = {"folder": folder, "files": files, "copies": copies, "arguments": arguments, "wanted": wanted}
         self.process.stdin.write(json.dumps(job) + "\n")
         self.process.stdin.flush()
         answer = self.process.stdout.readline()

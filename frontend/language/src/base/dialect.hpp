@@ -137,7 +137,6 @@ class Dialect : public VersionTable {
   /// Whether files are looked for beside the file that has the call; else beside the main or used
   /// file, which may include that one.
   const bool finds_files_beside_calls = row(false, true);
-  /// Whether paths in messages are relative to the folder of the used file that is evaluated; else
   /// Whether the place is said where a file that is included or used cannot be opened.
   const bool tells_place_of_missing_files = row(false, true);
   /// Whether the paths in all messages of an evaluation are relative to the main file's folder;

@@ -81,7 +81,8 @@ Made make_roof(const BuiltinCall& call, NodeTree& tree) {
   add(tree, "$fa", fragments.angle);
   add(tree, "$fs", fragments.size);
   add(tree, "$fn", fragments.number);
-  add_integer(tree, "convexity", std::max(is_finite_number(convexity) ? integer_or(call, convexity, 1) : 1, 1));
+  add_integer(tree, "convexity",
+              std::max(is_finite_number(convexity) ? integer_or(call, convexity, 1) : 1, 1));
   return Made::kNode;
 }
 

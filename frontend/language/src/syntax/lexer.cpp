@@ -278,8 +278,11 @@ void Lexer::skip_to_path() {
 /// of the file.
 bool Lexer::reach_path_part(std::string_view statement) {
   while (*cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n') {
-    const bool is_line_feed = *cursor_++ == '\n';
-    if (!is_line_feed) continue;
+    const char c = *cursor_;
+    const bool is_return = c == '\r' && dialect_.counts_lines_of_paths;
+    if (is_return) source_->note_counted_return(offset_of(cursor_));
+    ++cursor_;
+    if (c != '\n' && !is_return) continue;
     if (dialect_.counts_lines_of_paths) {
       remark(MessageGroup::kWarning,
              "new lines " + std::string(statement) +
@@ -317,13 +320,13 @@ bool Lexer::lex_include(Token& token) {
     return true;
   }
   ++cursor_;
-  const FileId file =
-      lookup_.include(named_file(path_folder + last_path_name_, path_place(token, path_begin)));
+  const Place place = path_place(token, path_begin);
+  const FileId file = lookup_.include(named_file(path_folder + last_path_name_, place));
   check_warnings();
   if (file == kNoFile) return false;
   last_path_name_.clear();
   // OpenSCAD goes on counting with the line of messages, which differs where there are CRs.
-  const ErrorLines lines{files_.message_line(token.place), offset_of(cursor_)};
+  const ErrorLines lines{files_.message_line(place), offset_of(cursor_)};
   includers_.push_back({file_, cursor_, std::move(folder_), lines});
   const std::string& path = files_[file].path;
   being_included_.push_back(path);

@@ -114,7 +114,8 @@ class Lexer {
   /// Returns where a path is looked for, behind which the cursor stands: of several lines, on the
   /// last one where its lines are counted.
   Place path_place(const Token& token, const char* path_begin) const {
-    const bool has_lines = std::find(path_begin, cursor_, '\n') != cursor_;
+    const bool has_lines =
+        std::any_of(path_begin, cursor_, [](char c) { return c == '\n' || c == '\r'; });
     return has_lines && dialect_.counts_lines_of_paths ? position() : token.place;
   }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
