@@ -121,6 +121,14 @@ TEST(Calls, CallDynamicNamesAndLetTheInnermostNameCount) {
   EXPECT_EQ(said_2026("function h(h) = h(1); echo(h(function(x) x + 10));"), "ECHO: 11\n");
 }
 
+TEST(Calls, FindFunctionsOfOuterVariables) {
+  const std::string program =
+      "f = function(x) x + 1; module m(f) { echo(f(1)); union() echo(let(f = undef) f(2)); }\n"
+      "m(3); function g(f) = f(3); echo(g(3), [for (f = [1]) f(4)]);";
+  EXPECT_EQ(said_2026(program), "ECHO: 2\nECHO: 3\nECHO: 4, [5]\n");
+  EXPECT_NE(said_2021(program), said_2026(program));
+}
+
 TEST(Calls, AllCallsInTailPositionLoop) {
   EXPECT_EQ(said_2026("function even(n) = n == 0 ? true : odd(n - 1);\n"
                       "function odd(n) = n == 0 ? false : even(n - 1);\necho(even(900000));"),

@@ -86,6 +86,8 @@ class Dialect : public VersionTable {
   const bool forgets_names_of_units = row(false, true);
   /// Whether a `$` name can be called.
   const bool calls_dynamic_names = row(false, true);
+  /// Whether a variable that holds no function hides no function that one further out holds.
+  const bool finds_outer_functions = row(false, true);
   /// Whether each call in tail position starts the frame anew; else those by the running function's
   /// own name, whatever it means.
   const bool has_all_tail_calls = row(false, true);

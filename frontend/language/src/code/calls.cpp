@@ -218,7 +218,7 @@ void CodeCompiler::dynamic_call(const CallExpression& call, bool is_tail) {
     if (is_dynamic_name(site.name, compiler_.names())) {
       out_.emit(Op::kDynamicSilently, call.callee->place, 1, site.name);
     } else {
-      variable_or(site.name, call.callee->place, Op::kUndef);
+      callee_variable(site.name, call.callee->place);
     }
     const auto found = compiler_.find_function(*scope_, site.name);
     site.function = found.entry;

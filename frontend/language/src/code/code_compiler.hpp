@@ -66,6 +66,7 @@ class CodeCompiler {
   /// Pushes a variable if one is set. Emits what comes where none is: `otherwise` is a kUndef or a
   /// kUnknownVariable.
   void variable_or(Name name, Place place, Op otherwise);
+  void callee_variable(Name name, Place place);
   bool may_be_variable(Name name) const;
   bool is_known_variable(Name name) const;
   void store(Name name, Place place);  // pops into a variable of the innermost scope, or binds it

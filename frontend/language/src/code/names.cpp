@@ -49,6 +49,31 @@ void CodeCompiler::variable_or(Name name, Place place, Op otherwise) {
     out_.at(position).flag = static_cast<uint16_t>(out_.here() - position - 1);
 }
 
+/// Pushes what a name that is called means among the variables: undef if they hold no function. In
+/// 2026 one that holds none hides no other further out.
+void CodeCompiler::callee_variable(Name name, Place place) {
+  std::vector<const ScopeLayout*> scopes;
+  for (const ScopeLayout* scope = scope_; scope; scope = scope->parent) {
+    const ScopeVariable* const found = scope->find(name);
+    const bool is_own = scope->code == &out_.code();
+    if (found && (!is_own || found->is_set || found->is_optional)) scopes.push_back(scope);
+  }
+  if (scopes.size() < 2 || !compiler_.dialect().finds_outer_functions)
+    return variable_or(name, place, Op::kUndef);
+  std::vector<uint32_t> functions;
+  for (const ScopeLayout* const scope : scopes) {
+    const uint32_t number = scope->is_in_heap ? scope_number(*scope) : 0;
+    const Op op = scope->is_in_heap ? Op::kTryScoped : Op::kTryLocal;
+    out_.emit(op, place, 0, scope->find(name)->slot, number, 1);
+    const uint32_t unset = out_.emit(Op::kJump, place, 1);
+    functions.push_back(out_.emit(Op::kIfFunction, place, 0));
+    out_.emit(Op::kPop, place, -1);
+    out_.land(unset);
+  }
+  out_.emit(Op::kUndef, place, 1);
+  for (const uint32_t position : functions) out_.land(position);
+}
+
 /// Returns whether reading a variable finds it in the frame for certain.
 bool CodeCompiler::is_known_variable(Name name) const {
   if (is_dynamic_name(name, compiler_.names())) return false;
