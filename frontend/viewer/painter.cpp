@@ -38,21 +38,10 @@ constexpr double kMostOfPicture = 0.5;
 /// A share this near to 1 is drawn in full: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
 
-/// The directions of the studio's light in the first picture that has it, and in the last.
-constexpr uint32_t kFewDirections = csgcore::kFewDirections, kManyDirections = 256;
-
 /// A ray through a large mesh takes some four times as long as through other solids. Meshes of more
 /// triangles than this in all get fewer directions in the first picture.
 constexpr size_t kManyTriangles = 10'000;
 constexpr uint32_t kFewMeshDirections = 72;
-
-uint32_t first_directions(const csgcore::Scene& scene) {
-  size_t triangles = 0;
-  for (const csgcore::Primitive& primitive : scene.primitives) {
-    if (const csgcore::TriangleMesh* mesh = primitive.mesh()) triangles += mesh->triangles().size();
-  }
-  return triangles > kManyTriangles ? kFewMeshDirections : kFewDirections;
-}
 
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {
@@ -60,7 +49,7 @@ frontend::RenderSettings last_settings(const PaintOrder& order) {
   if (order.overlays.edges) settings.studio.edges = 0;  // the overlay draws them
   if (draws_studio(settings)) {
     settings.samples = std::max(settings.samples, frontend::kStudioSamples);
-    settings.studio.directions = kManyDirections;
+    settings.studio.directions = kLastDirections;
     settings.studio.shares_light = false;
   }
   return settings;
@@ -83,6 +72,14 @@ frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
 bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCells; }
 
 }  // namespace
+
+uint32_t first_directions(const csgcore::Scene& scene) {
+  size_t triangles = 0;
+  for (const csgcore::Primitive& primitive : scene.primitives) {
+    if (const csgcore::TriangleMesh* mesh = primitive.mesh()) triangles += mesh->triangles().size();
+  }
+  return triangles > kManyTriangles ? kFewMeshDirections : csgcore::kFewDirections;
+}
 
 bool show_the_same(const PaintOrder& a, const PaintOrder& b) {
   return a.design == b.design && a.recolored == b.recolored && a.section == b.section &&

@@ -83,6 +83,12 @@ struct Finding {
   Surface surface;
 };
 
+/// The directions that the studio's light of a scene's first picture has: fewer where rays go
+/// through large meshes.
+uint32_t first_directions(const csgcore::Scene& scene);
+/// Those of its last picture.
+constexpr uint32_t kLastDirections = 256;
+
 class Painter {
  public:
   /// `frame_ms` is the time that a picture may take while the camera moves. `on_news` is called

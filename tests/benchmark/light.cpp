@@ -24,6 +24,7 @@
 #include "csgcore/studio_light.hpp"
 #include "csgcore/tracer.hpp"
 #include "frontend/camera.hpp"
+#include "painter.hpp"
 #include "support/read_design.hpp"
 #include "times.hpp"
 
@@ -173,7 +174,7 @@ json measure(const std::string& file, int repetitions) {
   StudioSettings settings;
   settings.block_px = kBlock;
   for (const bool is_last : {false, true}) {
-    settings.directions = is_last ? 256 : csgcore::kLeastDirections;
+    settings.directions = is_last ? window::kLastDirections : window::first_directions(scene);
     settings.shares_light = !is_last;
     Image image;
     json times = json::array();
