@@ -102,16 +102,16 @@ class Redrawn : public testing::TestWithParam<Way> {
 TEST_P(Redrawn, EqualsThePictureDrawnAnew) {
   if (!can_draw()) GTEST_SKIP() << "no OpenGL";
   constexpr uint32_t kEdits = 6, kPrimitives = 24;
-  // By OpenGL a sanitizer sees little more of a second one.
+  // By OpenGL on the CPU one takes half a minute, and a sanitizer sees little more of a second one.
   const bool is_cpu = GetParam().renderer == RendererKind::kCpu;
-  const uint32_t trees = is_cpu ? 4 : test_support::sample_size(4);
+  const uint32_t trees = is_cpu ? 4 : std::max(test_support::sample_size(4) / 2, 1u);
   uint64_t least_traced = kSide_px * kSide_px;
   for (uint32_t seed = 0; seed < trees; ++seed) {
     std::mt19937 random(seed);
     Design design(csgcore::checks::framed_tree(kPrimitives, seed));
     settings_.samples = seed % 2 == 0 ? 1 : 4;
     const auto projection =
-        seed < 2 ? csgcore::Projection::kPerspective : csgcore::Projection::kOrthographic;
+        2 * seed < trees ? csgcore::Projection::kPerspective : csgcore::Projection::kOrthographic;
     load(design.scene());
     const csgcore::View view = view_of(*scene_, projection);
     expect_drawn_anew(redraw(view), view);
