@@ -84,11 +84,11 @@ std::optional<std::vector<FaceSide>> face_sides(const RoofEdges& outline, const 
 /// Returns whether a face is what a straight skeleton has: its corners lie in its plane, and a line
 /// perpendicular to its edge crosses it once at most.
 bool is_sound(const RoofEdge& edge, std::span<const FaceSide> sides,
-              const std::vector<RoofNode>& nodes) {
+              const std::vector<SkeletonNode>& nodes) {
   std::vector<double> along;
   double twice_area = 0;
   for (const FaceSide& side : sides) {
-    const RoofNode& from = nodes[side.from];
+    const SkeletonNode& from = nodes[side.from];
     if (!(std::abs(edge.ahead(from.place, from.time)) <= kRoofRounding)) return false;
     along.push_back(glm::dot(from.place - edge.start, edge.direction));
     twice_area += cross(from.place - edge.start, nodes[side.to].place - edge.start);
@@ -115,8 +115,8 @@ class JoinedNodes {
   explicit JoinedNodes(const Wavefront& wave) : first_(wave.nodes().size()) {
     std::iota(first_.begin(), first_.end(), 0u);
     for (const RoofArc& arc : wave.arcs()) {
-      const RoofNode& from = wave.nodes()[arc.from];
-      const RoofNode& to = wave.nodes()[arc.to];
+      const SkeletonNode& from = wave.nodes()[arc.from];
+      const SkeletonNode& to = wave.nodes()[arc.to];
       if (glm::length(to.place - from.place) > kSameNode) continue;
       // A corner of the outline, which comes first, stays where it is.
       const uint32_t a = find(arc.from), b = find(arc.to);
@@ -179,7 +179,7 @@ class RoofBuilder {
     const uint32_t joined = joined_.find(node);
     uint32_t& point = point_of_[joined];
     if (point != kNone) return point;
-    const RoofNode& own = nodes_[joined];
+    const SkeletonNode& own = nodes_[joined];
     const Vec3 place = joined < outline_corners_.size() ? Vec3(outline_corners_[joined], 0)
                                                         : frame_.from_unit(own.place, own.time);
     const auto [entry, is_new] = number_of_.try_emplace({place.x, place.y, place.z},
@@ -197,7 +197,7 @@ class RoofBuilder {
 
   const UnitFrame& frame_;
   const std::span<const Vec2> outline_corners_;
-  const std::vector<RoofNode>& nodes_;
+  const std::vector<SkeletonNode>& nodes_;
   JoinedNodes joined_;
   std::vector<uint32_t> point_of_;  // by node
   std::map<std::tuple<double, double, double>, uint32_t> number_of_;

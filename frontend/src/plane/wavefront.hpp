@@ -21,7 +21,7 @@
 namespace frontend {
 
 /// A place where the wavefront has changed, or a corner of the outline.
-struct RoofNode {
+struct SkeletonNode {
   Vec2 place{0.0};
   double time = 0;  // the height of the roof there
 };
@@ -40,7 +40,7 @@ class Wavefront {
   /// Returns false if the events contradict each other.
   bool run();
 
-  const std::vector<RoofNode>& nodes() const { return nodes_; }
+  const std::vector<SkeletonNode>& nodes() const { return nodes_; }
   const std::vector<RoofArc>& arcs() const { return arcs_; }
 
  private:
@@ -94,7 +94,7 @@ class Wavefront {
 
   const std::vector<RoofEdge>& edges_;
   EdgeSearch search_;
-  std::vector<RoofNode> nodes_;
+  std::vector<SkeletonNode> nodes_;
   std::vector<RoofArc> arcs_;
   std::vector<WaveCorner> corners_;
   std::vector<uint32_t> parts_;  // by edge: the corner that begins one of its parts
