@@ -243,14 +243,14 @@ void SolidSums::add_faces(const SolidPart& part, const SupportSet& convex, const
   const Primitive& mesh = *part.primitive;
   const size_t triangles = mesh.mesh()->triangles().size();
   if (triangles > kMostSums) return fail(kBecauseManyFaces);
-  const csgcore::TriangleSet surface = surface_of(part);
-  // Of the faces there are more, and their sums overlap more.
-  const auto pieces = convex_pieces(surface, pool_, kFewCutTriangles);
-  if (pieces && pieces->size() < triangles && fill(*pieces, surface)) {
-    for (const PiecePoints& points : *pieces) {
-      add_convex(support_of_points(points, part), convex, box);
+  if (triangles <= kFewCutTriangles) {
+    const csgcore::TriangleSet surface = surface_of(part);
+    // Sums of faces are more than those of pieces, and overlap more.
+    const auto pieces = convex_pieces(surface, pool_, kFewCutTriangles);
+    if (pieces && pieces->size() < triangles && fill(*pieces, surface)) {
+      for (const auto& points : *pieces) add_convex(support_of_points(points, part), convex, box);
+      return;
     }
-    return;
   }
   if (3 * triangles * convex.generators.size() > kMostWork) return fail(kBecauseManyCorners);
   sums_.push_back(moved(part, convex.generators.front().center, box));

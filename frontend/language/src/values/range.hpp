@@ -9,8 +9,8 @@ namespace language {
 
 struct RangeObject : SharedObject {
   double begin, step, end;
-  bool
-      has_nearest_count;  // of 2^32 and more values it counts the most it can; else they are folded
+  /// Of 2^32 and more values it counts as many as it can; else they are folded.
+  bool has_nearest_count;
 
   /// Returns how many values it has, by OpenSCAD's rules (LANGUAGE.md, "Values"). A step of zero
   /// counts without yielding anything: see steps().
