@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 #include "csgcore/csg_tree.hpp"
@@ -22,6 +23,14 @@ using csgcore::Vec3;
 
 /// Surfaces of more edges that turn inwards are curved, and never end in few pieces.
 constexpr size_t kMostReflexEdges = 250;
+
+/// What is still to be cut.
+struct Part {
+  TriangleSet solid;
+  /// It turns inwards at fewer edges than this: each cut ends at least one, and where it ends none
+  /// the plane of a narrow face was rounded too far, and more cuts only make more slivers.
+  size_t limit;
+};
 
 csgcore::CsgTree tree_of_two(Op op) {
   csgcore::CsgTreeBuilder builder;
@@ -47,17 +56,24 @@ csgcore::HalfSpace half_at(const TriangleSet& surface, const SurfaceEdge& edge, 
   return {normal, glm::dot(normal, surface.vertices[edge.from]) + kShareOfSlack * slack};
 }
 
-/// The half spaces at all edges at which the solid turns inwards, and that are longer than the
-/// slack: cuts leave shorter ones at corners. Of those, returns the one that leaves fewest such
-/// edges on the side that has more of them; nothing if there are none.
-std::optional<csgcore::HalfSpace> best_cut(const TriangleSet& surface,
-                                           const std::vector<SurfaceEdge>& edges, double slack) {
-  std::vector<const SurfaceEdge*> reflex;
+using Edges = std::vector<const SurfaceEdge*>;
+
+/// The edges at which the solid turns inwards, and that are longer than the slack: cuts leave
+/// shorter ones at corners.
+Edges reflex_edges(const TriangleSet& surface, const std::vector<SurfaceEdge>& edges,
+                   double slack) {
+  Edges reflex;
   for (const SurfaceEdge& edge : edges) {
     const Vec3 along = surface.vertices[edge.to] - surface.vertices[edge.from];
     if (edge.is_reflex(slack) && glm::length(along) > slack) reflex.push_back(&edge);
   }
-  std::optional<csgcore::HalfSpace> best;
+  return reflex;
+}
+
+/// Of the half spaces at these edges, returns the one that leaves fewest of them on the side that
+/// has more of them.
+csgcore::HalfSpace best_cut(const TriangleSet& surface, const Edges& reflex, double slack) {
+  csgcore::HalfSpace best{};
   size_t fewest = reflex.size() + 1;
   for (const SurfaceEdge* const edge : reflex) {
     const csgcore::HalfSpace half = half_at(surface, *edge, slack);
@@ -133,26 +149,27 @@ std::optional<std::vector<PiecePoints>> convex_pieces(TriangleSet surface, Solid
   if (count_of_reflex_edges(surface) > kMostReflexEdges) return std::nullopt;
   const double slack = slack_of(surface);
   std::vector<PiecePoints> result;
-  std::vector<TriangleSet> todo;
-  todo.push_back(std::move(surface));
+  std::vector<Part> todo;
+  todo.push_back({std::move(surface), std::numeric_limits<size_t>::max()});
   size_t work = 0;
   while (!todo.empty()) {
     csgcore::stop_point();
-    TriangleSet solid = std::move(todo.back());
+    auto [solid, limit] = std::move(todo.back());
     todo.pop_back();
     join_vertices(solid);
     if (solid.triangles.empty()) continue;
     const std::vector<SurfaceEdge> edges = edges_of(solid);
-    const std::optional<csgcore::HalfSpace> half = best_cut(solid, edges, slack);
-    if (!half) {
+    const Edges reflex = reflex_edges(solid, edges, slack);
+    if (reflex.empty()) {
       for (PiecePoints& points : points_by_piece(solid, edges)) result.push_back(std::move(points));
       continue;
     }
     work += solid.triangles.size();
-    if (work > most_cut_triangles) return std::nullopt;
-    const std::array<TriangleSet, 2> operands{solid, cut_box(solid, *half, slack)};
+    if (reflex.size() >= limit || work > most_cut_triangles) return std::nullopt;
+    const std::array<TriangleSet, 2> operands{
+        solid, cut_box(solid, best_cut(solid, reflex, slack), slack)};
     for (const Op op : {Op::kDifference, Op::kIntersection}) {
-      todo.push_back(pool.boundary(operands, tree_of_two(op)));
+      todo.push_back({pool.boundary(operands, tree_of_two(op)), reflex.size()});
     }
   }
   return result;

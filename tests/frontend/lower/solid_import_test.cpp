@@ -431,6 +431,19 @@ TEST(SolidMinkowski, OfASolidThatIsNotConvexAddsItsConvexPieces) {
   }
 }
 
+TEST(SolidMinkowski, TakesFacesWhereCutsLeaveAsManyEdgesThatTurnInwards) {
+  // Cuts along the narrow faces of this twist leave slivers at the same edge, again and again: they
+  // took minutes.
+  const Inside inside(
+      "minkowski() { linear_extrude(height = 2, twist = 60, scale = 0.5, $fn = 3) {"
+      "polygon([[0, 0], [4, 1], [2, 0]]); } cube(1, center = true); }");
+  EXPECT_TRUE(inside(4.45, 1.45, -0.45));
+  EXPECT_FALSE(inside(4.55, 1.45, -0.45));
+  EXPECT_TRUE(inside(2, -0.45, 0));
+  EXPECT_TRUE(inside(0, 0, 2.45));
+  EXPECT_FALSE(inside(0, 0, 2.55));
+}
+
 TEST(SolidMinkowski, OfARoundSolidThatIsNotConvexTakesItsFacets) {
   const std::string ring = "rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "}";
   const Inside inside("minkowski() {" + ring + "cube(2, center = true); }");
