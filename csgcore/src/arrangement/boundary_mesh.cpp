@@ -173,8 +173,9 @@ BoundaryMesh mesh_of_part(std::span<const TriangleSet> all, const SeparatePart& 
   const bool is_simple = part.tokens.size() == 1 && !may_cross_itself[0] && facets.touches.empty();
   if (is_simple) return mesh_of_simple(facets);
   const FacetTrees trees(facets, operands.size());
-  const CellTree cells(facets, trees, part.tokens, may_cross_itself);
-  const Sheets sheets = sheets_of(facets, cells.pairs());
+  const Covers covers(facets, trees, part.tokens, may_cross_itself);
+  const CellTree cells(facets, trees, part.tokens, may_cross_itself, covers);
+  const Sheets sheets = sheets_of(facets, cells.pairs(), covers);
   const Pieces pieces(facets, cells, sheets);
   return BoundaryMaker(facets, may_cross_itself, cells, pieces).run();
 }

@@ -276,9 +276,9 @@ class CellTree::Builder {
 };
 
 CellTree::CellTree(const Facets& facets, const FacetTrees& trees, std::span<const CsgToken> tree,
-                   const std::vector<bool>& may_cross_itself)
+                   const std::vector<bool>& may_cross_itself, const Covers& covers)
     : facets_(facets), trees_(trees) {
-  const std::vector<uint32_t> needed = needed_facets(facets, trees, tree);
+  const std::vector<uint32_t> needed = needed_facets(facets, trees, covers);
   Builder(*this, may_cross_itself, needed).run(tree, *this);
 }
 

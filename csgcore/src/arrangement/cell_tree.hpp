@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "arrangement/covers.hpp"
 #include "arrangement/exact_center.hpp"
 #include "arrangement/facet_trees.hpp"
 #include "arrangement/tree_values.hpp"
@@ -24,9 +25,9 @@ struct KeptFace {
 
 class CellTree {
  public:
-  /// Keeps references to all arguments.
+  /// Keeps references to the facets and the trees.
   CellTree(const Facets& facets, const FacetTrees& trees, std::span<const CsgToken> tree,
-           const std::vector<bool>& may_cross_itself);
+           const std::vector<bool>& may_cross_itself, const Covers& covers);
   ~CellTree();
   CellTree(const CellTree&) = delete;
   CellTree& operator=(const CellTree&) = delete;

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "arrangement/covers.hpp"
 #include "arrangement/facet_trees.hpp"
-#include "csgcore/csg_tree.hpp"
 
 namespace csgcore {
 
@@ -14,6 +13,6 @@ namespace csgcore {
 /// outside another operand, apart from its surface, where that operand alone decides an operation
 /// on both, as one within a subtracted ball does.
 std::vector<uint32_t> needed_facets(const Facets& facets, const FacetTrees& trees,
-                                    std::span<const CsgToken> tokens);
+                                    const Covers& covers);
 
 }  // namespace csgcore

@@ -48,8 +48,9 @@ Trace touch(uint32_t facet, uint32_t corner) {
 
 class SheetMaker {
  public:
-  SheetMaker(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs)
-      : facets_(facets), pairs_(pairs), planes_(facets.facets.size()) {}
+  SheetMaker(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs,
+             const Covers& covers)
+      : facets_(facets), pairs_(pairs), covers_(covers), planes_(facets.facets.size()) {}
 
   Sheets run() {
     find_traces();
@@ -77,11 +78,12 @@ class SheetMaker {
                         const StopScope scope(stop);
                         stop_point();
                         PlacedFacet t{};
+                        uint32_t last = kNoPlace;
                         for (size_t i = range.begin(); i < range.end(); ++i) {
                           if (i == range.begin() || t.number != pairs_[i].first) {
                             t = placed(facets_, pairs_[i].first);
                           }
-                          add_crossing(t, placed(facets_, pairs_[i].second), found.local());
+                          add_crossing(t, placed(facets_, pairs_[i].second), last, found.local());
                         }
                       });
     for (const Facets::Touch& at : facets_.touches) traces_.push_back(touch(at.facet, at.point));
@@ -134,9 +136,12 @@ class SheetMaker {
     return name;
   }
 
-  void add_crossing(const PlacedFacet& t, const PlacedFacet& s, Found& found) const {
-    const bool is_one_operand =
-        facets_.facets[t.number].operand == facets_.facets[s.number].operand;
+  /// `last` is the operand that hid the last crossing, or kNoPlace.
+  void add_crossing(const PlacedFacet& t, const PlacedFacet& s, uint32_t& last,
+                    Found& found) const {
+    const uint32_t operand_of_t = facets_.facets[t.number].operand;
+    const uint32_t operand_of_s = facets_.facets[s.number].operand;
+    const bool is_one_operand = operand_of_t == operand_of_s;
     std::array<uint32_t, 3> common{};
     size_t commons = 0;
     for (const uint32_t name : t.names) {
@@ -162,6 +167,9 @@ class SheetMaker {
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
     if (commons == 1 && crossing.start == crossing.end) return;
     const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
+    constexpr int kAnyAxis = 0;  // of points that no drawing defines
+    const std::array ends{arranged(start, kAnyAxis).position, arranged(end, kAnyAxis).position};
+    if (covers_.hide(ends, operand_of_t, operand_of_s, last)) return;
     found.traces.push_back({kNoPlace, t.number, s.number, start, end, edge_of_s});
     found.traces.push_back({kNoPlace, s.number, t.number, start, end, edge_of_t});
   }
@@ -422,14 +430,16 @@ class SheetMaker {
 
   const Facets& facets_;
   const std::vector<std::pair<uint32_t, uint32_t>>& pairs_;
+  const Covers& covers_;
   DisjointSets planes_;  // facets of one plane that overlap
   std::vector<Trace> traces_;
 };
 
 }  // namespace
 
-Sheets sheets_of(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs) {
-  return SheetMaker(facets, pairs).run();
+Sheets sheets_of(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs,
+                 const Covers& covers) {
+  return SheetMaker(facets, pairs, covers).run();
 }
 
 }  // namespace csgcore

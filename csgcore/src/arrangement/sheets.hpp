@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "arrangement/covers.hpp"
 #include "arrangement/facet_grid.hpp"
 #include "arrangement/planar_subdivision.hpp"
 
@@ -30,7 +31,8 @@ struct Sheets {
   std::vector<bool> is_divided;
 };
 
-/// Divides facets by those with which they are paired.
-Sheets sheets_of(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs);
+/// Divides facets by those with which they are paired, but where another operand hides both.
+Sheets sheets_of(const Facets& facets, const std::vector<std::pair<uint32_t, uint32_t>>& pairs,
+                 const Covers& covers);
 
 }  // namespace csgcore

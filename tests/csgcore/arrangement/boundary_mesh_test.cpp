@@ -19,6 +19,7 @@
 
 #include "arrangement/needed_facets.hpp"
 #include "arrangement/separate_parts.hpp"
+#include "arrangement/simple_surfaces.hpp"
 #include "base/worker_threads.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/stop_scope.hpp"
@@ -351,16 +352,34 @@ TEST(SeparateParts, HaveTheBoxOfWhatIsNotSubtracted) {
   EXPECT_EQ(parts[1].tokens[2].op, Op::kIntersection);
 }
 
+/// Operands on the grid, and what of them is found before any two facets are compared.
+struct Placed {
+  Placed(const std::vector<MeshParts>& operands, const CsgTree& tree)
+      : surfaces(surfaces_of(operands)),
+        facets(csgcore::facets_on_grid(pointers())),
+        may_cross(csgcore::find_simple_surfaces(pointers(), facets)),
+        trees(facets, operands.size()),
+        covers(facets, trees, tree.tokens(), may_cross) {}
+
+  std::vector<const TriangleSet*> pointers() const {
+    std::vector<const TriangleSet*> result;
+    for (const TriangleSet& surface : surfaces) result.push_back(&surface);
+    return result;
+  }
+
+  std::vector<TriangleSet> surfaces;
+  csgcore::Facets facets;
+  std::vector<bool> may_cross;
+  csgcore::FacetTrees trees;
+  csgcore::Covers covers;
+};
+
 /// Returns how many facets of each operand are needed.
 std::vector<size_t> needed_of(const std::vector<MeshParts>& operands, const CsgTree& tree) {
-  const std::vector<TriangleSet> surfaces = surfaces_of(operands);
-  std::vector<const TriangleSet*> pointers;
-  for (const TriangleSet& surface : surfaces) pointers.push_back(&surface);
-  csgcore::Facets facets = csgcore::facets_on_grid(pointers);
-  const csgcore::FacetTrees trees(facets, operands.size());
+  const Placed placed(operands, tree);
   std::vector<size_t> result(operands.size(), 0);
-  for (const uint32_t facet : csgcore::needed_facets(facets, trees, tree.tokens())) {
-    ++result[facets.facets[facet].operand];
+  for (const uint32_t facet : csgcore::needed_facets(placed.facets, placed.trees, placed.covers)) {
+    ++result[placed.facets.facets[facet].operand];
   }
   return result;
 }
@@ -398,6 +417,55 @@ TEST(NeededFacets, AreThoseOfOperandsThatTheTreeHasTwice) {
   const BoundaryMesh mesh =
       sound_mesh({cube(Vec3(-5), 10), cube(Vec3(-3), 6), cube(Vec3(-1), 2)}, builder.finish());
   EXPECT_EQ(double(test_support::volume_of(mesh)), 1000 - 216 + 8);
+}
+
+/// A solid of twenty faces. One is at (1, 1, 1)·0.46·radius, and the origin is in its box's corner.
+MeshParts icosahedron(const Vec3& center, double radius) {
+  return test_support::icosphere_parts(radius, 0).moved(center);
+}
+
+TEST(NeededFacets, AreNotThoseBehindAllFacesOfAnother) {
+  // The box of a face of the large one holds the small one.
+  const std::vector<MeshParts> parts{icosahedron(Vec3(0), 9), icosahedron(Vec3(3.2), 1)};
+  EXPECT_THAT(needed_of(parts, flat_tree(Op::kUnion, 2)), testing::ElementsAre(20u, 0u));
+  EXPECT_THAT(needed_of(parts, flat_tree(Op::kDifference, 2)), testing::ElementsAre(20u, 20u));
+}
+
+TEST(Covers, HideWhatAnOperandHoldsThatDecidesBothOthers) {
+  using Ends = std::array<Vec3, 2>;
+  const std::vector<MeshParts> parts{icosahedron(Vec3(0), 9), icosahedron({3, 0, 0}, 6),
+                                     icosahedron({0, 3, 0}, 6),
+                                     test_support::icosphere_parts(8.5, 3)};
+  const auto hides = [&](const CsgTree& tree, Ends ends, uint32_t a, uint32_t b) {
+    const Placed placed(parts, tree);
+    for (Vec3& end : ends) end = (end - placed.facets.middle) * placed.facets.scale;
+    uint32_t last = csgcore::kNoPlace;
+    return placed.covers.hide(ends, a, b, last);
+  };
+  const Ends inside{Vec3(0.5, 0.5, -4), Vec3(1, 1, 4)};
+  const Ends across{Vec3(0.5, 0.5, -4), Vec3(9, 0.5, 4)};
+  const CsgTree together = flat_tree(Op::kUnion, 4);
+  EXPECT_TRUE(hides(together, inside, 1, 2)) << "the first and the ball hold it";
+  EXPECT_FALSE(hides(together, across, 1, 2));
+  const Ends in_ball{Vec3(4.3), Vec3(4.4, 4.3, 4.2)};
+  EXPECT_TRUE(hides(together, in_ball, 0, 1)) << "only the ball, of 1,280 facets, holds it";
+  EXPECT_FALSE(hides(together, in_ball, 0, 3)) << "no other than these holds it";
+  // (0 − 3) ∪ (1 ∩ 2): what 0 holds decides nothing.
+  CsgTreeBuilder builder;
+  builder.open(Op::kUnion);
+  builder.open(Op::kDifference);
+  builder.primitive(0);
+  builder.primitive(3);
+  builder.close();
+  builder.open(Op::kIntersection);
+  builder.primitive(1);
+  builder.primitive(2);
+  builder.close();
+  builder.close();
+  const CsgTree nested = builder.finish();
+  EXPECT_FALSE(hides(nested, inside, 1, 2));
+  EXPECT_FALSE(hides(nested, inside, 0, 1)) << "the ball decides the first alone";
+  EXPECT_TRUE(hides(nested, inside, 0, 0));
 }
 
 TEST(BoundaryMesh, SubtractsAllFurtherOperands) {
