@@ -3,7 +3,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <optional>
 
 #include "arrangement/needed_facets.hpp"
+#include "arrangement/sorted_by_key.hpp"
 #include "csgcore/stop_scope.hpp"
 
 namespace csgcore {
@@ -54,14 +54,12 @@ class CellTree::Builder {
     result.root_ = std::move(root);
     for (Found& found : found_) {
       result.pairs_.insert(result.pairs_.end(), found.pairs.begin(), found.pairs.end());
+      found.pairs = {};
       result.others_.insert(result.others_.end(), found.others.begin(), found.others.end());
       std::ranges::move(found.alone, std::back_inserter(result.alone_));
     }
     auto& pairs = result.pairs_;
-    // In one comparison, where that of std::pair takes several that are hard to predict.
-    const auto number = [](const auto& pair) { return uint64_t{pair.first} << 32 | pair.second; };
-    tbb::parallel_sort(pairs.begin(), pairs.end(),
-                       [&](const auto& a, const auto& b) { return number(a) < number(b); });
+    sort_by_key(pairs, facets_.facets.size(), [](const auto& pair) { return pair.first; });
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   }
 
