@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
+#include <tuple>
 
 #include "arrangement/disjoint_sets.hpp"
 #include "arrangement/facet_crossing.hpp"
@@ -238,16 +240,54 @@ class SheetMaker {
     return std::ranges::find(corners, corner) != corners.end();
   }
 
+  /// A line through a point.
+  struct Passing {
+    uint32_t point;
+    uint32_t line;
+    uint32_t next;  // a point on the line
+    auto operator<=>(const Passing&) const = default;
+  };
+
+  /// Returns one of the lines through a point for each direction, plane and edge that they have,
+  /// by direction.
+  static std::vector<std::vector<uint32_t>> by_direction(const PlanarSubdivision& drawing,
+                                                         const std::vector<Line>& lines,
+                                                         std::span<const Passing> here) {
+    const auto& points = drawing.points();
+    std::vector<std::pair<uint32_t, size_t>> known;  // next points, and in which direction they lie
+    std::vector<std::vector<uint32_t>> result;
+    std::vector<uint32_t> first;  // by direction: a next point
+    for (const Passing& at : here) {
+      const auto is_along = [&](uint32_t next) {
+        return turn(points[at.point], points[next], points[at.next], drawing.axis()) == 0;
+      };
+      auto place = std::ranges::find(known, at.next, &std::pair<uint32_t, size_t>::first);
+      if (place == known.end()) {
+        const auto direction =
+            static_cast<size_t>(std::ranges::find_if(first, is_along) - first.begin());
+        if (direction == first.size()) {
+          first.push_back(at.next);
+          result.emplace_back();
+        }
+        place = known.insert(known.end(), {at.next, direction});
+      }
+      result[place->second].push_back(at.line);
+    }
+    const auto is_less = [&](uint32_t p, uint32_t q) {
+      return std::tie(lines[p].facet, lines[p].edge) < std::tie(lines[q].facet, lines[q].edge);
+    };
+    const auto is_same = [&](uint32_t p, uint32_t q) { return !is_less(p, q) && !is_less(q, p); };
+    for (std::vector<uint32_t>& along : result) {
+      std::ranges::sort(along, is_less);
+      along.erase(std::unique(along.begin(), along.end(), is_same), along.end());
+    }
+    return result;
+  }
+
   /// Where three lines and more pass a point, or two pass a corner of other facets,
   /// other sheets may know it by any two of them.
   void add_names(const PlanarSubdivision& drawing, const std::vector<Line>& lines, uint32_t plane,
                  std::vector<PlanarSubdivision::Alias>& aliases) const {
-    struct Passing {
-      uint32_t point;
-      uint32_t line;
-      uint32_t next;  // a point on the line
-      auto operator<=>(const Passing&) const = default;
-    };
     std::vector<Passing> passing;
     for (const auto& triangle : drawing.triangles()) {
       for (size_t edge = 0; edge < 3; ++edge) {
@@ -266,20 +306,23 @@ class SheetMaker {
       return p.point == q.point && p.line == q.line;
     };
     passing.erase(std::unique(passing.begin(), passing.end(), is_same), passing.end());
-    const auto& points = drawing.points();
-    for (size_t begin = 0; begin < passing.size();) {
-      size_t end = begin + 1;
-      while (end < passing.size() && passing[end].point == passing[begin].point) ++end;
-      const ArrangedPoint& point = points[passing[begin].point];
-      const bool has_other_names = end - begin > (point.name.kind() == PointName::kCorner ? 1 : 2);
-      for (size_t i = begin; i < end && has_other_names; ++i) {
-        for (size_t j = i + 1; j < end; ++j) {
-          const bool is_one_line =
-              turn(point, points[passing[i].next], points[passing[j].next], drawing.axis()) == 0;
-          if (is_one_line) continue;
-          for (const PointName& name :
-               names_of(lines[passing[i].line], lines[passing[j].line], plane)) {
-            if (name != point.name) aliases.push_back({passing[begin].point, name});
+    for (auto begin = passing.begin(); begin != passing.end();) {
+      const uint32_t number = begin->point;
+      const auto end =
+          std::find_if(begin, passing.end(), [&](const Passing& at) { return at.point != number; });
+      const PointName& known = drawing.points()[number].name;
+      const auto add = [&](const PointName& name) {
+        if (name != known) aliases.push_back({number, name});
+      };
+      if (end - begin > (known.kind() == PointName::kCorner ? 1 : 2)) {
+        const auto directions = by_direction(drawing, lines, {begin, end});
+        for (size_t i = 0; i < directions.size(); ++i) {
+          for (size_t j = i + 1; j < directions.size(); ++j) {
+            for (const uint32_t p : directions[i]) {
+              for (const uint32_t q : directions[j]) {
+                std::ranges::for_each(names_of(lines[p], lines[q], plane), add);
+              }
+            }
           }
         }
       }
