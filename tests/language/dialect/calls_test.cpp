@@ -161,6 +161,9 @@ TEST(Calls, TraceAssignmentsAndParameters) {
             "ERROR: Assertion 'false' failed in file design.scad, line 2\n"
             "TRACE: assignment to \"a\" in file design.scad, line 2\n"
             "TRACE: called by 'm' in file design.scad, line 4\n");
+  EXPECT_THAT(said_2026("module m(x) { x = floor(1.5); assert(false); }\nm(3);\n"),
+              testing::HasSubstr("TRACE: call of 'm(x = 1)'"))
+      << "what the parameter holds by now";
   EXPECT_THAT(
       said_2026("a = 1;\na = 2;\na = assert(false);\n"),
       testing::EndsWith("TRACE: overwritten assignment to \"a\" (this is where the "

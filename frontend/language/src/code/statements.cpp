@@ -109,7 +109,14 @@ void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module, const H
       out_.emit(Op::kPop, assignment.place, -1);
     } else {
       store(assignment.name, assignment.place);
-      if (ScopeVariable* variable = scope_->find(assignment.name)) variable->is_optional = false;
+      ScopeVariable* const variable = scope_->find(assignment.name);
+      if (!variable) continue;  // a `$` name
+      variable->is_optional = false;
+      if (!module || !compiler_.dialect().has_full_traces) continue;
+      const uint32_t slot = module->parameters.slot_names.find(assignment.name);
+      if (slot >= module->parameters.declared_slots) continue;
+      out_.emit(Op::kScoped, assignment.place, 1, variable->slot, 0);
+      out_.emit(Op::kStoreLocal, assignment.place, -1, slot);  // which traces of the call show
     }
   }
 }
