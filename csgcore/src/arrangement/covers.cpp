@@ -125,8 +125,8 @@ bool Covers::hide(const std::array<Vec3, 2>& ends, uint32_t a, uint32_t b, uint3
   }
   const FacetBox box = box_between(least, most);
   const auto hides = [&](uint32_t operand) {
-    if (operand == a || operand == b || !decisions_.decides(operand, true, a) ||
-        !decisions_.decides(operand, true, b)) {
+    if (operand == a || operand == b || !trees_.box(operand).holds(box) ||
+        !decisions_.decides(operand, true, a) || !decisions_.decides(operand, true, b)) {
       return false;
     }
     if (!behind_[operand].empty()) return hold(operand, ends);
@@ -134,9 +134,11 @@ bool Covers::hide(const std::array<Vec3, 2>& ends, uint32_t a, uint32_t b, uint3
     return !trees_.meet(operand, box) && trees_.winding(operand, MovedPoint(least), 0, none) != 0;
   };
   if (last != kNoPlace && hides(last)) return true;
-  return visit(box, [&](uint32_t operand) {
-    if (!hides(operand)) return false;
-    last = operand;
+  const auto may_hide = [&](const FacetBox& other) { return other.holds(box); };
+  return operands_.visit(may_hide, [&](uint32_t begin, uint32_t end) {
+    const auto place = std::find_if(placed_.begin() + begin, placed_.begin() + end, hides);
+    if (place == placed_.begin() + end) return false;
+    last = *place;
     return true;
   });
 }

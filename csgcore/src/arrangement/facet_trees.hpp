@@ -25,6 +25,12 @@ struct FacetBox {
     }
     return apart == 0;
   }
+  bool holds(const FacetBox& other) const {
+    for (size_t i = 0; i < 3; ++i) {
+      if (other.min[i] < min[i] || other.max[i] > max[i]) return false;
+    }
+    return true;
+  }
   void merge(const FacetBox& other) {
     for (size_t i = 0; i < 3; ++i) {
       min[i] = std::min(min[i], other.min[i]);

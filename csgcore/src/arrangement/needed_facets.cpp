@@ -97,6 +97,7 @@ class Selection {
   }
 
   bool is_held(uint32_t operand, uint32_t facet) const {
+    if (!trees_.box(operand).holds(trees_.facet_box(facet))) return false;
     const auto [a, b, c] = facets_.corners(facet);
     const std::array corners{to_vec3(a), to_vec3(b), to_vec3(c)};
     return covers_.hold(operand, corners);
