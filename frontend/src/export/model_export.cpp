@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include "arguments/node_problems.hpp"
+#include "csgcore/polyhedron.hpp"
 #include "csgcore/stop_scope.hpp"
 #include "export/colored_parts.hpp"
 #include "export/model_writers.hpp"
@@ -57,6 +60,12 @@ csgcore::Box box_of(const TriangleSet& surface) {
   csgcore::Box box;
   for (const csgcore::Vec3& vertex : surface.vertices) box.merge(vertex);
   return box;
+}
+
+/// Returns null if the primitive is none.
+const csgcore::Polyhedron* polyhedron_of(const csgcore::Primitive& primitive) {
+  const auto* const shape = std::get_if<csgcore::PolyhedronShape>(&primitive.solid);
+  return shape ? shape->polyhedron.get() : nullptr;
 }
 
 std::string encoded(const TriangleSet& surface, ModelFormat format) {
@@ -188,12 +197,34 @@ void ModelExport::find_operands() {
   used.erase(std::unique(used.begin(), used.end()), used.end());
   operands_.resize(scene.primitives.size());
   std::vector<char> is_open(operands_.size());
-  tbb::parallel_for(size_t{0}, used.size(), [&, stop = csgcore::stop_of_work](size_t i) {
-    const csgcore::StopScope scope(stop);
-    csgcore::stop_point();
-    const uint32_t primitive = used[i];
-    operands_[primitive] = triangles_of(scene.primitives[primitive]);
-    is_open[primitive] = csgcore::open_edges(operands_[primitive]) > 0;
+  // Polyhedra that many primitives share are divided into triangles once.
+  std::unordered_map<const csgcore::Polyhedron*, TriangleSet> hulls;
+  for (const uint32_t primitive : used) {
+    if (const csgcore::Polyhedron* shape = polyhedron_of(scene.primitives[primitive])) hulls[shape];
+  }
+  std::vector<decltype(hulls)::value_type*> entries;
+  for (auto& entry : hulls) entries.push_back(&entry);
+  const auto for_each = [stop = csgcore::stop_of_work](size_t count, const auto& make) {
+    tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+      const csgcore::StopScope scope(stop);
+      csgcore::stop_point();
+      make(i);
+    });
+  };
+  for_each(entries.size(), [&](size_t i) {
+    auto& [shape, surface] = *entries[i];
+    surface = triangles_of_hull(shape->vertices());
+  });
+  for_each(used.size(), [&](size_t i) {
+    const csgcore::Primitive& primitive = scene.primitives[used[i]];
+    TriangleSet& surface = operands_[used[i]];
+    if (const csgcore::Polyhedron* shape = polyhedron_of(primitive)) {
+      surface = hulls.at(shape);
+      place(surface, primitive.local_to_world);
+    } else {
+      surface = triangles_of(primitive);
+      is_open[used[i]] = csgcore::open_edges(surface) > 0;
+    }
   });
   if (used.size() == 1 && is_open[used.front()]) {
     surface_ = std::move(operands_[used.front()]);

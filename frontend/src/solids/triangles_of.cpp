@@ -91,12 +91,14 @@ TriangleSet local_triangles(const csgcore::RevolutionShape& revolution, int chor
 TriangleSet triangles_of(const Primitive& primitive, int chords) {
   TriangleSet result = std::visit(
       [chords](const auto& shape) { return local_triangles(shape, chords); }, primitive.solid);
-  const csgcore::Affine& map = primitive.local_to_world;
-  for (Vec3& vertex : result.vertices) vertex = map.point(vertex);
-  if (map.determinant() < 0) {
-    for (auto& triangle : result.triangles) std::swap(triangle[1], triangle[2]);
-  }
+  place(result, primitive.local_to_world);
   return result;
+}
+
+void place(TriangleSet& surface, const csgcore::Affine& local_to_world) {
+  for (Vec3& vertex : surface.vertices) vertex = local_to_world.point(vertex);
+  if (local_to_world.determinant() >= 0) return;
+  for (auto& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
 }
 
 TriangleSet triangles_of_hull(std::vector<Vec3> points) {

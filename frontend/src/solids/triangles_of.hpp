@@ -15,6 +15,9 @@ namespace frontend {
 csgcore::TriangleSet triangles_of(const csgcore::Primitive& primitive,
                                   int chords = kChordsOfCircle);
 
+/// Puts a surface where the matrix puts it, facing outwards.
+void place(csgcore::TriangleSet& surface, const csgcore::Affine& local_to_world);
+
 /// Returns the hull of the points; no triangles if it has no volume. All coordinates are finite.
 csgcore::TriangleSet triangles_of_hull(std::vector<csgcore::Vec3> points);
 

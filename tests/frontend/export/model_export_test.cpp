@@ -159,6 +159,15 @@ TEST(ModelExport, AMirroredSolidIsNotInsideOut) {
   EXPECT_NEAR(exported.volume(), 6, 1e-9);
 }
 
+TEST(ModelExport, EqualPolyhedraStandWhereTheyArePut) {
+  const std::string ball = "sphere($fn = 4, $fa = 12, $fs = 2, r = 1);";
+  const double one = Exported(ball).volume();
+  EXPECT_NEAR(Exported(ball + "multmatrix([[-2,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {" + ball +
+                       "} multmatrix([[1,0,0,-9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {" + ball + "}")
+                  .volume(),
+              4 * one, 1e-9);
+}
+
 TEST(ModelExport, FormatsHoldTheirDimensionAlone) {
   const std::string square = "square(size = [1, 2], center = false);\n";
   EXPECT_EQ(Exported(square).error(ModelFormat::kStl),
