@@ -73,8 +73,7 @@ Covers::Covers(const Facets& facets, const FacetTrees& trees, std::span<const Cs
     operands.push_back(i);
     boxes.push_back(trees.box(i));
   }
-  BoxTree tree(boxes, placed_);
-  operands_ = std::move(tree);
+  operands_ = BoxTree(boxes, placed_);
   for (uint32_t& place : placed_) place = operands[place];
   // The facets of finer surfaces have boxes that are close to them.
   constexpr uint32_t kMostFacets = 256;

@@ -70,7 +70,7 @@ Edges reflex_edges(const TriangleSet& surface, const std::vector<SurfaceEdge>& e
   return reflex;
 }
 
-/// Of the half spaces at these edges, returns the one that leaves fewest of them on the side that
+/// Returns that one of the half spaces at these edges which leaves fewest of them on the side that
 /// has more of them.
 csgcore::HalfSpace best_cut(const TriangleSet& surface, const Edges& reflex, double slack) {
   csgcore::HalfSpace best{};
