@@ -32,33 +32,34 @@ namespace extrusion_rays {
 /// The face of both caps. Side faces have the number of their piece.
 constexpr uint32_t kCap = 0xFFFFFFFFu;
 
-/// The line of a ray in the figure's plane.
-struct RayLine {
-  ProfileLine line;
-  /// Where the ray enters and leaves the part between the caps that may hold the solid, along the
-  /// line and in t.
-  double first, last;
-  double first_t, last_t;
-  // The ray is at along = foot + speed·t / (scale·(scale + growth·t)), for t relative to `base`.
-  double base, foot, speed, scale, growth;
-
-  /// Returns t at a place on the line, from `first` to `last`.
-  double t_at(double along) const {
-    const double way = (along - foot) * scale;
-    const double t = base + way * scale / (speed - way * growth);
-    return std::clamp(t, first_t, last_t);
-  }
-};
-
-/// The lines of a packet's rays, in double and in float.
+/// The lines of a packet's rays in the figure's plane, in double and in float.
 struct alignas(64) PacketLines {
-  RayLine lines[kPacketRays];
   double direction[2][kPacketRays];
   double offset[kPacketRays];
+  /// Where the rays enter and leave the part between the caps that may hold the solid, along the
+  /// line and in t.
+  double first[kPacketRays], last[kPacketRays];
+  double first_t[kPacketRays], last_t[kPacketRays];
+  // A ray is at along = foot + speed·t / (scale·(scale + growth·t)), for t relative to `base`.
+  double base[kPacketRays], foot[kPacketRays], speed[kPacketRays], scale[kPacketRays];
+  double growth[kPacketRays];
+  /// What t is relative to.
+  double origin_t[kPacketRays];
   float near_direction[2][kPacketRays];
   float near_offset[kPacketRays];
   float near_first[kPacketRays];
   float near_last[kPacketRays];
+
+  ProfileLine line(size_t lane) const {
+    return {{direction[0][lane], direction[1][lane]}, offset[lane]};
+  }
+
+  /// Returns t at a place on the line, from `first` to `last`.
+  double t_at(size_t lane, double along) const {
+    const double way = (along - foot[lane]) * scale[lane];
+    const double t = base[lane] + way * scale[lane] / (speed[lane] - way * growth[lane]);
+    return std::clamp(t, first_t[lane], last_t[lane]);
+  }
 };
 
 /// The figure lies in the square [−1, 1]², and no line that is further than this from its middle
@@ -67,58 +68,90 @@ constexpr double kFurthestLine = 1.4143;
 /// The solid lies within |z| ≤ 1, hypot(x, y) ≤ 1, and in a ball of this squared radius.
 constexpr double kEnclosure2 = 2.0001;
 
-/// Projects the ray origin + t·direction, where the origin is the point next to the canonical
-/// origin, and inverse_length2 = 1/direction². Returns false if it misses the solid.
-HWY_INLINE bool project(const CanonicalPrimitive& primitive, const Vec3& origin,
-                        const Vec3& direction, double inverse_length2, RayLine& ray) {
-  const double beside2 = kEnclosure2 - glm::dot(origin, origin);
-  if (!(beside2 > 0)) return false;
-  const double half_chord = std::sqrt(beside2 * inverse_length2);
-  double first = -half_chord, last = half_chord;
-  const double lateral2 = direction.x * direction.x + direction.y * direction.y;
-  constexpr double kTrace2 = frustum_rays::kTrace * frustum_rays::kTrace;
-  const bool is_level = direction.z * direction.z <= kTrace2 * lateral2;
-  double first_end = 0, last_end = 0;  // −1 or 1 where the ray passes that cap
-  if (!is_level) {
-    const double rise = direction.z > 0 ? 1 : -1;
-    const double enter = (-rise - origin.z) / direction.z, leave = (rise - origin.z) / direction.z;
-    if (enter > first) first = enter, first_end = -rise;
-    if (leave < last) last = leave, last_end = rise;
-  } else if (std::abs(origin.z) > 1) {
-    return false;
-  }
-  if (!(first < last)) return false;
+/// Projects the rays o + t·along of the vector of lanes that begins at `lane`, where the origins
+/// are the points next to the canonical origin, and inverse_length2 = 1/along². Returns which of
+/// them may meet the solid.
+HWY_INLINE WideM project(const CanonicalPrimitive& primitive, const Lanes3<Wide>& o,
+                         const Lanes3<Wide>& along, WideV inverse_length2, size_t lane,
+                         PacketLines& rays) {
+  const Wide d;
+  const WideV zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const WideV beside2 = hn::Sub(hn::Set(d, kEnclosure2), dot(d, o, o));
+  WideM meets = hn::Gt(beside2, zero);
+  const WideV half_chord = hn::Sqrt(hn::Mul(beside2, inverse_length2));
+  WideV first = hn::Neg(half_chord), last = half_chord;
+  const WideV lateral2 = hn::Add(hn::Mul(along.x, along.x), hn::Mul(along.y, along.y));
+  const WideV trace2 = hn::Set(d, frustum_rays::kTrace * frustum_rays::kTrace);
+  const WideM is_level = hn::Le(hn::Mul(along.z, along.z), hn::Mul(trace2, lateral2));
+  const WideV rise = hn::IfThenElse(hn::Gt(along.z, zero), one, hn::Neg(one));
+  const WideV enter = hn::Div(hn::Sub(hn::Neg(rise), o.z), along.z);
+  const WideV leave = hn::Div(hn::Sub(rise, o.z), along.z);
+  const WideM enters_by_cap = hn::AndNot(is_level, hn::Gt(enter, first));
+  const WideM leaves_by_cap = hn::AndNot(is_level, hn::Lt(leave, last));
+  first = hn::IfThenElse(enters_by_cap, enter, first);
+  last = hn::IfThenElse(leaves_by_cap, leave, last);
+  meets = hn::AndNot(hn::And(is_level, hn::Gt(hn::Abs(o.z), one)), meets);
+  meets = hn::And(meets, hn::Lt(first, last));
   // The figure's scale at a height, which is exact at the caps.
   const double unit = 1 / primitive.profile()->reach();
-  const auto scale_at = [&](double z, double end) {
-    return unit * (primitive.radius_mid + primitive.radius_slope * (end != 0 ? end : z));
+  const auto scale_at = [&](WideV t, WideM is_on_cap, WideV cap) {
+    const WideV z = hn::IfThenElse(is_on_cap, cap, hn::Add(o.z, hn::Mul(t, along.z)));
+    return hn::Mul(hn::Set(d, unit), hn::Add(hn::Set(d, primitive.radius_mid),
+                                             hn::Mul(hn::Set(d, primitive.radius_slope), z)));
   };
-  const double first_scale = scale_at(origin.z + first * direction.z, first_end);
-  const double last_scale = scale_at(origin.z + last * direction.z, last_end);
+  const WideV first_scale = scale_at(first, enters_by_cap, hn::Neg(rise));
+  const WideV last_scale = scale_at(last, leaves_by_cap, rise);
   // About the point where the figure is largest, nothing cancels.
-  ray.growth =
-      primitive.radius_slope == 0 || is_level ? 0 : unit * primitive.radius_slope * direction.z;
-  ray.base = ray.growth == 0 ? 0 : ray.growth > 0 ? last : first;
-  ray.scale = ray.growth == 0 ? first_scale : std::max(first_scale, last_scale);
-  if (!(ray.scale > 0)) return false;
-  const Vec2 at{origin.x + ray.base * direction.x, origin.y + ray.base * direction.y};
-  const Vec2 place = at / ray.scale;
-  const Vec2 motion = ray.scale * Vec2{direction.x, direction.y} - ray.growth * at;
-  ray.speed = std::sqrt(glm::dot(motion, motion));
-  if (!(ray.speed * ray.speed * inverse_length2 > kTrace2)) ray.speed = 0;
+  const WideV growth =
+      hn::IfThenZeroElse(is_level, hn::Mul(hn::Set(d, unit * primitive.radius_slope), along.z));
+  const WideM is_even = hn::Eq(growth, zero);
+  const WideV base = hn::IfThenZeroElse(is_even, hn::IfThenElse(hn::Gt(growth, zero), last, first));
+  const WideV scale = hn::IfThenElse(is_even, first_scale, hn::Max(first_scale, last_scale));
+  meets = hn::And(meets, hn::Gt(scale, zero));
+  const WideV x = hn::Add(o.x, hn::Mul(base, along.x));
+  const WideV y = hn::Add(o.y, hn::Mul(base, along.y));
+  const WideV place_x = hn::Div(x, scale), place_y = hn::Div(y, scale);
+  const WideV motion_x = hn::Sub(hn::Mul(scale, along.x), hn::Mul(growth, x));
+  const WideV motion_y = hn::Sub(hn::Mul(scale, along.y), hn::Mul(growth, y));
+  WideV speed = hn::Sqrt(hn::Add(hn::Mul(motion_x, motion_x), hn::Mul(motion_y, motion_y)));
+  speed =
+      hn::IfThenElseZero(hn::Gt(hn::Mul(hn::Mul(speed, speed), inverse_length2), trace2), speed);
   // A ray that stays at its place asks what is there, on any line through it.
-  ray.line.direction = ray.speed > 0 ? motion / ray.speed : Vec2{1, 0};
-  ray.line.offset = cross(ray.line.direction, place);
-  if (!(std::abs(ray.line.offset) <= kFurthestLine)) return false;
-  ray.foot = ray.line.along(place);
-  const auto along_at = [&](double t, double scale) {
-    return ray.speed > 0 ? ray.foot + ray.speed * (t - ray.base) / (ray.scale * scale) : ray.foot;
+  const WideM moves = hn::Gt(speed, zero);
+  const WideV direction_x = hn::IfThenElse(moves, hn::Div(motion_x, speed), one);
+  const WideV direction_y = hn::IfThenElseZero(moves, hn::Div(motion_y, speed));
+  const WideV offset = hn::Sub(hn::Mul(direction_x, place_y), hn::Mul(direction_y, place_x));
+  meets = hn::And(meets, hn::Le(hn::Abs(offset), hn::Set(d, kFurthestLine)));
+  const WideV foot = hn::Add(hn::Mul(direction_x, place_x), hn::Mul(direction_y, place_y));
+  const auto along_at = [&](WideV t, WideV scale_there) {
+    const WideV way =
+        hn::Div(hn::Mul(speed, hn::Sub(t, base)), hn::Mul(scale, hn::Max(scale_there, zero)));
+    return hn::IfThenElse(moves, hn::Add(foot, way), foot);
   };
-  ray.first = along_at(first, std::max(first_scale, 0.0));
-  ray.last = along_at(last, std::max(last_scale, 0.0));
-  ray.first_t = first;
-  ray.last_t = last;
-  return true;
+  const WideV first_along = along_at(first, first_scale), last_along = along_at(last, last_scale);
+  const auto keep = [&](WideV value, double* all) { hn::Store(value, d, all + lane); };
+  keep(direction_x, rays.direction[0]);
+  keep(direction_y, rays.direction[1]);
+  keep(offset, rays.offset);
+  keep(first_along, rays.first);
+  keep(last_along, rays.last);
+  keep(first, rays.first_t);
+  keep(last, rays.last_t);
+  keep(base, rays.base);
+  keep(foot, rays.foot);
+  keep(speed, rays.speed);
+  keep(scale, rays.scale);
+  keep(growth, rays.growth);
+  const hn::Rebind<float, Wide> near;
+  const auto keep_near = [&](WideV value, float* all) {
+    hn::Store(hn::DemoteTo(near, value), near, all + lane);
+  };
+  keep_near(direction_x, rays.near_direction[0]);
+  keep_near(direction_y, rays.near_direction[1]);
+  keep_near(offset, rays.near_offset);
+  keep_near(first_along, rays.near_first);
+  keep_near(last_along, rays.near_last);
+  return meets;
 }
 
 /// Returns the rays that pass the box |x|, |y| ≤ lateral, |z| ≤ 1 in canonical space, and some
@@ -144,48 +177,22 @@ HWY_INLINE WideM pass_box(const Lanes3<Wide>& origin, const Lanes3<Wide>& direct
   return hn::Le(enter, leave);
 }
 
-/// Projects the rays. Returns the lanes that may meet the solid. `base` is what their t is relative
-/// to.
+/// Projects the rays. Returns the lanes that may meet the solid.
 HWY_INLINE LaneMask project_lanes(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
-                                  const CanonicalPrimitive& primitive, PacketLines& rays,
-                                  double (&base)[kPacketRays]) {
+                                  const CanonicalPrimitive& primitive, PacketLines& rays) {
   const Wide d;
   const Vec3 center = primitive.center - frame.pivot;
   LaneMask reaching = 0;
   const double lateral =
       (primitive.radius_mid + std::abs(primitive.radius_slope)) / primitive.profile()->reach();
-  alignas(64) double origin[3][kLanes], direction[3][kLanes], inverse_length2[kLanes];
   for (const int c : ChunksOf(lanes)) {
-    const size_t first = first_lane(c);
-    const auto [o, along, inverse, at] =
-        polyhedron_rays::rebased(d, primitive, center, load_rays(d, packet, first));
+    const size_t lane = first_lane(c);
+    const auto [o, along, inverse_length2, origin_t] =
+        polyhedron_rays::rebased(d, primitive, center, load_rays(d, packet, lane));
     const LaneMask passing = bits_of(pass_box(o, along, lateral), c) & lanes;
     if (passing == 0) continue;
-    const WideV os[] = {o.x, o.y, o.z}, alongs[] = {along.x, along.y, along.z};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      hn::Store(os[axis], d, origin[axis]);
-      hn::Store(alongs[axis], d, direction[axis]);
-    }
-    hn::Store(inverse, d, inverse_length2);
-    hn::Store(at, d, base + first);
-    for (LaneMask left = passing; left != 0; left &= left - 1) {
-      const auto lane = static_cast<size_t>(std::countr_zero(left));
-      const size_t i = lane - first;
-      RayLine& ray = rays.lines[lane];
-      if (!project(primitive, {origin[0][i], origin[1][i], origin[2][i]},
-                   {direction[0][i], direction[1][i], direction[2][i]}, inverse_length2[i], ray)) {
-        continue;
-      }
-      reaching |= LaneMask{1} << lane;
-      rays.direction[0][lane] = ray.line.direction.x;
-      rays.direction[1][lane] = ray.line.direction.y;
-      rays.offset[lane] = ray.line.offset;
-      rays.near_direction[0][lane] = static_cast<float>(ray.line.direction.x);
-      rays.near_direction[1][lane] = static_cast<float>(ray.line.direction.y);
-      rays.near_offset[lane] = static_cast<float>(ray.line.offset);
-      rays.near_first[lane] = static_cast<float>(ray.first);
-      rays.near_last[lane] = static_cast<float>(ray.last);
-    }
+    hn::Store(origin_t, d, rays.origin_t + lane);
+    reaching |= bits_of(project(primitive, o, along, inverse_length2, lane, rays), c) & passing;
   }
   return reaching;
 }
@@ -255,7 +262,7 @@ HWY_INLINE void cross_lines(const Profile& profile, const PacketLines& rays, Lan
     // Whole loops that lie before the solid's height cancel, and of a chain only the ends count.
     if (node.is_chain) {
       for_each_lane(passing.before, [&](uint32_t lane) {
-        const ProfileLine& line = rays.lines[lane].line;
+        const ProfileLine line = rays.line(lane);
         const int turn = ProfileLine::is_left(line.height(profile.pieces()[node.begin].start)) -
                          ProfileLine::is_left(line.height(profile.pieces()[node.end - 1].end));
         if (turn != 0) search.lanes[lane].found.push_back({-kInfinity, node.begin, turn});
@@ -269,21 +276,22 @@ HWY_INLINE void cross_lines(const Profile& profile, const PacketLines& rays, Lan
         return lanes_across(piece, rays, through);
       },
       [&](uint32_t lane, const Profile::Piece& piece, uint32_t i) {
-        for_each_crossing(rays.lines[lane].line, piece, [&](double along, int turn) {
+        for_each_crossing(rays.line(lane), piece, [&](double along, int turn) {
           search.lanes[lane].found.push_back({along, i, turn});
         });
       });
 }
 
 /// Replaces the crossings of a ray's line with the figure by those of the ray with the solid.
-HWY_INLINE void cut_by_caps(const Profile& profile, const RayLine& ray, double base,
+HWY_INLINE void cut_by_caps(const Profile& profile, const PacketLines& rays, size_t lane,
                             std::vector<Crossing>& found) {
+  const double first = rays.first[lane], last = rays.last[lane], base = rays.origin_t[lane];
   // Only the sum of the turns before the solid's height matters, and nothing of those behind it. A
   // figure that crosses itself everywhere has most of its crossings there.
   int before = 0;
   std::erase_if(found, [&](const Crossing& crossing) {
-    if (crossing.t < ray.first) before += crossing.turn;
-    return crossing.t < ray.first || crossing.t > ray.last;
+    if (crossing.t < first) before += crossing.turn;
+    return crossing.t < first || crossing.t > last;
   });
   if (before != 0) found.push_back({-kInfinity, 0, before});
   std::sort(found.begin(), found.end());
@@ -295,10 +303,10 @@ HWY_INLINE void cut_by_caps(const Profile& profile, const RayLine& ray, double b
   Crossing start;
   const auto is_inside = [&] { return profile.is_inside(winding); };
   const auto end_at = [&](const Crossing& end) {
-    if (!(end.t >= ray.first) || !(start.t <= ray.last)) return;
-    const bool starts_on_cap = start.t <= ray.first, ends_on_cap = end.t >= ray.last;
-    const double start_t = starts_on_cap ? ray.first_t : ray.t_at(start.t);
-    const double end_t = ends_on_cap ? ray.last_t : ray.t_at(end.t);
+    if (!(end.t >= first) || !(start.t <= last)) return;
+    const bool starts_on_cap = start.t <= first, ends_on_cap = end.t >= last;
+    const double start_t = starts_on_cap ? rays.first_t[lane] : rays.t_at(lane, start.t);
+    const double end_t = ends_on_cap ? rays.last_t[lane] : rays.t_at(lane, end.t);
     if (!(start_t < end_t)) return;
     found[kept] = {base + start_t, starts_on_cap ? kCap : start.face, 1};
     found[kept + 1] = {base + end_t, ends_on_cap ? kCap : end.face, -1};
@@ -328,14 +336,12 @@ struct ExtrusionCrossings {
                    const CanonicalPrimitive& primitive, CrossingSearch& search) {
     const Profile& profile = *primitive.profile();
     extrusion_rays::PacketLines rays;
-    alignas(64) double base[kPacketRays];
-    const LaneMask reaching =
-        extrusion_rays::project_lanes(frame, packet, lanes, primitive, rays, base);
+    const LaneMask reaching = extrusion_rays::project_lanes(frame, packet, lanes, primitive, rays);
     if (reaching == 0) return;
     extrusion_rays::cross_lines(profile, rays, reaching, search);
     for (LaneMask left = reaching; left != 0; left &= left - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(left));
-      extrusion_rays::cut_by_caps(profile, rays.lines[lane], base[lane], search.lanes[lane].found);
+      extrusion_rays::cut_by_caps(profile, rays, lane, search.lanes[lane].found);
     }
   }
 

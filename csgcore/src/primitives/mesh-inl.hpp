@@ -50,11 +50,11 @@ constexpr double kEdgeOn = 0x1p-10;
 
 /// These lie on that side of the number, if not next to it.
 HWY_INLINE float float_below(double t) {
-  return std::nextafter(static_cast<float>(t), -std::numeric_limits<float>::infinity());
+  const float nearest = static_cast<float>(t);
+  return nearest - std::max(std::abs(nearest) * std::numeric_limits<float>::epsilon(),
+                            std::numeric_limits<float>::min());
 }
-HWY_INLINE float float_above(double t) {
-  return std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity());
-}
+HWY_INLINE float float_above(double t) { return -float_below(-t); }
 
 /// Maps the rays into canonical space. Returns the lanes that pass the unit ball.
 HWY_INLINE LaneMask enter_canonical(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
@@ -85,19 +85,32 @@ HWY_INLINE int longest_axis(const PacketRays& rays, uint32_t lane) {
 /// Prepares the lanes, whose longest axis is given, for the search.
 HWY_INLINE void prepare(const CrossingSearch& search, LaneMask lanes, int longest,
                         PacketRays& rays) {
+  const Wide d;
+  const hn::Rebind<float, Wide> near;
   const int across[] = {(longest + 1) % 3, (longest + 2) % 3};
-  for (LaneMask left = lanes; left != 0; left &= left - 1) {
-    const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
-    const Vec3 direction{rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
-    rays.least_growth2[lane] = kEdgeOn * kEdgeOn * glm::dot(direction, direction);
-    rays.inverse[lane] = 1 / rays.direction[longest][lane];
+  for (const int c : ChunksOf(lanes)) {
+    const size_t first = first_lane(c);
+    const Lanes3<Wide> direction{hn::Load(d, rays.direction[0] + first),
+                                 hn::Load(d, rays.direction[1] + first),
+                                 hn::Load(d, rays.direction[2] + first)};
+    const WideV longest_part = hn::Load(d, rays.direction[longest] + first);
+    hn::Store(hn::Mul(hn::Set(d, kEdgeOn * kEdgeOn), dot(d, direction, direction)), d,
+              rays.least_growth2 + first);
+    hn::Store(hn::Div(hn::Set(d, 1.0), longest_part), d, rays.inverse + first);
     for (int i = 0; i < 2; ++i) {
-      rays.shear[i][lane] = rays.direction[across[i]][lane] / rays.direction[longest][lane];
+      const WideV part = hn::Load(d, rays.direction[across[i]] + first);
+      hn::Store(hn::Div(part, longest_part), d, rays.shear[i] + first);
     }
     for (int axis = 0; axis < 3; ++axis) {
-      rays.near_origin[axis][lane] = static_cast<float>(rays.origin[axis][lane]);
-      rays.near_inverse[axis][lane] = inverse_in_float(rays.direction[axis][lane]);
+      const WideV origin = hn::Load(d, rays.origin[axis] + first);
+      const WideV part = hn::Load(d, rays.direction[axis] + first);
+      hn::Store(hn::DemoteTo(near, origin), near, rays.near_origin[axis] + first);
+      hn::Store(hn::DemoteTo(near, bounded_inverse(d, part)), near,
+                rays.near_inverse[axis] + first);
     }
+  }
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     rays.first_t[lane] = float_below(search.lanes[lane].after.t - rays.base[lane]);
     rays.last_t[lane] = std::numeric_limits<float>::infinity();
   }
