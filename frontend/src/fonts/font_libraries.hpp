@@ -48,6 +48,12 @@ struct FontLibraries {
   } harfbuzz;
   struct Fontconfig {
     decltype(&FcInitLoadConfigAndFonts) init_load_config_and_fonts;
+    decltype(&FcConfigCreate) config_create;
+    decltype(&FcConfigParseAndLoad) config_parse_and_load;
+    decltype(&FcConfigGetCacheDirs) config_get_cache_dirs;
+    decltype(&FcConfigBuildFonts) config_build_fonts;
+    decltype(&FcStrListNext) str_list_next;
+    decltype(&FcStrListDone) str_list_done;
     decltype(&FcConfigDestroy) config_destroy;
     decltype(&FcConfigUptoDate) config_up_to_date;
     decltype(&FcConfigAppFontAddFile) config_app_font_add_file;
@@ -66,6 +72,10 @@ struct FontLibraries {
     decltype(&FcCharSetAddChar) charset_add_char;
     decltype(&FcCharSetHasChar) charset_has_char;
     decltype(&FcCharSetDestroy) charset_destroy;
+
+    /// Returns the user's settings with the fonts that they name, which the caller destroys; null
+    /// if there are none.
+    FcConfig* load_fonts() const;
   } fontconfig;
 };
 

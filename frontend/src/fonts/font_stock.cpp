@@ -136,7 +136,7 @@ void FontStock::use_files(const std::vector<std::string>& files) {
 void FontStock::load_list() {
   const FontLibraries::Fontconfig& fc = libraries_.fontconfig;
   if (config_ != nullptr) fc.config_destroy(config_);
-  config_ = fc.init_load_config_and_fonts();
+  config_ = fc.load_fonts();
   if (config_ == nullptr) return;
   for (const std::string& folder : sources_.folders) {
     fc.config_app_font_add_dir(config_, fc_string(folder));

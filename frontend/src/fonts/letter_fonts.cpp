@@ -62,7 +62,7 @@ std::vector<LetterFont> fonts_with(std::span<const char32_t> letters) {
   const FontLibraries* const libraries = font_libraries();
   if (libraries == nullptr) return fonts;
   const Fontconfig& fc = libraries->fontconfig;
-  const Owned<FcConfig> config(fc.init_load_config_and_fonts(), fc.config_destroy);
+  const Owned<FcConfig> config(fc.load_fonts(), fc.config_destroy);
   if (!config) return fonts;
   std::vector<char32_t> left(letters.begin(), letters.end());
   while (!left.empty()) {
