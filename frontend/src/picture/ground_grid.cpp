@@ -1,4 +1,6 @@
 // A faint grid in the plane z = 0, where the picture shows no solid.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -22,15 +24,17 @@ constexpr double kReach = 1.5;
 /// Lines that are closer than the first number of pixels are left out, from the second on they are
 /// drawn in full.
 constexpr double kClosest_px = 4, kClear_px = 12;
+/// So many lines away a double still tells a line from the next one.
+constexpr double kFurthestPhase = 0x1p50;
 
 double height_at_target(const View& view, const Camera& camera) {
   const bool is_perspective = view.projection == csgcore::Projection::kPerspective;
   return 2 * view.half_height * (is_perspective ? camera.distance : 1);
 }
 
-/// Where a ray meets the ground, and how that changes from pixel to pixel.
+/// Where a ray meets the ground, and how far that moves from pixel to pixel, along x and y.
 struct GroundPoint {
-  Vec3 at, per_column, per_row;
+  double at[2], width[2];
 };
 
 class GridPainter {
@@ -52,51 +56,61 @@ class GridPainter {
   }
 
   void draw() {
-    for (uint32_t y = 0; y < image_.height_px; ++y) {
-      for (uint32_t x = 0; x < image_.width_px; ++x) {
-        const std::size_t pixel = std::size_t{y} * image_.width_px + x;
-        if (std::isfinite(image_.z[pixel])) continue;
-        const double strength = strength_at(x, y);
-        for (std::size_t i = 0; i < 3 && strength > 0; ++i) {
-          uint8_t& value = image_.rgb[pixel][i];
-          value = static_cast<uint8_t>(std::lround(value + strength * (line_[i] - value)));
-        }
+    tbb::parallel_for(0u, image_.height_px, [this](uint32_t y) { draw_row(y); });
+  }
+
+ private:
+  void draw_row(uint32_t y) {
+    for (uint32_t x = 0; x < image_.width_px; ++x) {
+      const std::size_t pixel = std::size_t{y} * image_.width_px + x;
+      if (std::isfinite(image_.z[pixel])) continue;
+      const double strength = strength_at(x, y);
+      for (std::size_t i = 0; i < 3 && strength > 0; ++i) {
+        uint8_t& value = image_.rgb[pixel][i];
+        value = static_cast<uint8_t>(std::lround(value + strength * (line_[i] - value)));
       }
     }
   }
 
- private:
   double strength_at(double x, double y) const {
     const Vec3 origin = corner_.origin + x * per_column_.origin + y * per_row_.origin;
     const Vec3 direction = corner_.direction + x * per_column_.direction + y * per_row_.direction;
-    const double t = -origin.z / direction.z;
+    const double inverse = 1 / direction.z, t = -origin.z * inverse;
     if (!(std::isfinite(t) && (t > 0 || sees_behind_))) return 0;
-    const Vec3 at = origin + t * direction;
-    const Vec3 from_target = at - target_;
-    const double share =
-        (from_target.x * from_target.x + from_target.y * from_target.y) / (reach_ * reach_);
+    GroundPoint ground;
+    double from_target2 = 0;
+    const double t_per_column = -(per_column_.origin.z + t * per_column_.direction.z) * inverse;
+    const double t_per_row = -(per_row_.origin.z + t * per_row_.direction.z) * inverse;
+    for (int axis = 0; axis < 2; ++axis) {
+      ground.at[axis] = origin[axis] + t * direction[axis];
+      const double from_target = ground.at[axis] - target_[axis];
+      from_target2 += from_target * from_target;
+      const double column = per_column_.origin[axis] + t * per_column_.direction[axis] +
+                            t_per_column * direction[axis];
+      const double row =
+          per_row_.origin[axis] + t * per_row_.direction[axis] + t_per_row * direction[axis];
+      ground.width[axis] = std::sqrt(column * column + row * row);
+    }
+    const double share = from_target2 / (reach_ * reach_);
     if (!(share < 1)) return 0;
-    const auto change = [&](const csgcore::Ray& step) {
-      const double of_t = -(step.origin.z + t * step.direction.z) / direction.z;
-      return step.origin + t * step.direction + of_t * direction;
-    };
-    const GroundPoint ground{at, change(per_column_), change(per_row_)};
-    return (1 - share) * std::max(kStrength * lines_at(ground, spacing_),
-                                  kFineStrength * lines_at(ground, spacing_ / 10));
+    return (1 - share) * std::max(kStrength * lines_at(ground, 1 / spacing_),
+                                  kFineStrength * lines_at(ground, 10 / spacing_));
   }
 
   /// Returns the share of the pixel that lines at these distances cover, less where they are close.
-  double lines_at(const GroundPoint& ground, double spacing) const {
+  double lines_at(const GroundPoint& ground, double per_spacing) const {
     double covered = 0;
     for (int axis = 0; axis < 2; ++axis) {
-      const double phase = ground.at[axis] / spacing;
-      const double width = std::hypot(ground.per_column[axis], ground.per_row[axis]) / spacing;
-      const double line = line_px_ * width, from_line = std::abs(phase - std::round(phase));
-      const double both = std::clamp((width + line) / 2 - from_line, 0.0, std::min(width, line));
-      const double apart_px = 1 / line;
-      const double clear =
-          std::clamp((apart_px - kClosest_px) / (kClear_px - kClosest_px), 0.0, 1.0);
-      covered = std::max(covered, clear * both / width);
+      const double phase = ground.at[axis] * per_spacing;
+      const double width = ground.width[axis] * per_spacing, line = line_px_ * width;
+      // Lines that are closer than that are left out, and none is as far away as these numbers go.
+      if (!(kClosest_px * line < 1 && std::abs(phase) < kFurthestPhase)) continue;
+      const double nearest =
+          static_cast<double>(static_cast<int64_t>(phase + (phase < 0 ? -0.5 : 0.5)));
+      const double both = (width + line) / 2 - std::abs(phase - nearest);
+      if (!(both > 0)) continue;
+      const double clear = std::min((1 / line - kClosest_px) / (kClear_px - kClosest_px), 1.0);
+      covered = std::max(covered, clear * std::min(both, std::min(width, line)) / width);
     }
     return covered;
   }
