@@ -259,6 +259,12 @@ bool Painter::paint(PaintOrder order, Step step, const Stops& stops) {
   }
   activity_.end();
   if (!painting || stops.drawing.stop_requested()) return false;
+  if (draws_studio(settings)) {
+    painting->light_ms = painting->stats.traverse_ms + painting->stats.render_ms;
+    painting->stats = color_stats_;
+  } else {
+    color_stats_ = painting->stats;
+  }
   painting->is_final = size == order.size && draw_the_same(settings, last_settings(order));
   if (!painting->is_final && painting->error.empty()) {
     coarse_ = std::move(order);

@@ -54,7 +54,8 @@ struct Painting {
   PaintOrder order;
   csgcore::Image image;  // smaller than the order's size where it is coarse
   bool is_final = false;
-  frontend::RenderStats stats;
+  frontend::RenderStats stats;  // of the colours alone, which come before the studio's light
+  double light_ms = 0;          // of the picture in that light; 0 if it has none
   double draw_ms = 0;
   std::string error;  // why there is no picture; then `image` is empty
 };
@@ -159,6 +160,7 @@ class Painter {
   std::shared_ptr<const csgcore::Scene> loaded_colors_;  // PaintOrder::recolored
   ScenePointer scene_;                   // the loaded design's, cut by the section plane
   std::vector<uint32_t> section_parts_;  // CutScene::parts of it
+  frontend::RenderStats color_stats_;    // of the last picture without the studio's light
   double ms_per_pixel_ = 0;              // of the last picture of which most was traced; 0: unknown
   /// The last picture that was drawn in its whole size.
   struct Drawn {

@@ -59,6 +59,7 @@ json times_of(const State& state) {
   json times = json::object();
   if (const auto& painting = state.painting) {
     times["draw"] = painting->stats.traverse_ms + painting->stats.render_ms;
+    times["light"] = painting->light_ms;
     times["prepare"] = painting->stats.prepare_ms;
     times["subdivide"] = painting->stats.subdivide_ms;
   }

@@ -444,6 +444,7 @@ std::vector<StatusPart> status_parts(const State& state) {
     if (stats.prepare_ms > 0) time("prepare %.1f", stats.prepare_ms, 7);
     if (stats.subdivide_ms > 0) time("subdivide %.1f", stats.subdivide_ms, 6);
     time("draw %.1f ms", stats.traverse_ms + stats.render_ms, 1);
+    if (state.painting->light_ms > 0) time("light %.0f ms", state.painting->light_ms, 4);
   }
   if (state.frames_per_second > 0) {
     parts.push_back({text("%.0f frames/s", state.frames_per_second), 2});

@@ -214,25 +214,30 @@ TEST_F(PainterTest, LightsAStudioInSteps) {
   lit.settings.studio.directions = csgcore::kFewDirections;
   colors.settings.studio = {0, 0, 0};
   for (const bool is_moving : {false, true}) {
-    std::vector<csgcore::Image> steps;
+    std::vector<Painting> steps;
     std::promise<void> is_done;
     // No step is missed where the painter's thread takes them itself.
     std::unique_ptr<Painter> painter;
     std::promise<void> is_made;
     painter = std::make_unique<Painter>(1e6, [&, made = is_made.get_future().share()] {
       made.wait();
-      const std::optional<Painting> painting = painter->take_painting();
-      steps.push_back(painting->image);
-      if (painting->is_final) is_done.set_value();
+      steps.push_back(*painter->take_painting());
+      if (steps.back().is_final) is_done.set_value();
     });
     is_made.set_value();
     order.is_moving = is_moving;
     painter->order(order);
     is_done.get_future().wait();
     ASSERT_EQ(steps.size(), 3u);
-    EXPECT_TRUE(steps[0].rgb == command_picture(colors).rgb);
-    EXPECT_TRUE(steps[1].rgb == command_picture(lit).rgb);
-    EXPECT_TRUE(steps[2].rgb == command_picture(final).rgb);
+    EXPECT_TRUE(steps[0].image.rgb == command_picture(colors).rgb);
+    EXPECT_TRUE(steps[1].image.rgb == command_picture(lit).rgb);
+    EXPECT_TRUE(steps[2].image.rgb == command_picture(final).rgb);
+    // What the design itself took to draw stays known.
+    EXPECT_EQ(steps[0].light_ms, 0);
+    for (const Painting& step : {steps[1], steps[2]}) {
+      EXPECT_GT(step.light_ms, 0);
+      EXPECT_EQ(step.stats.render_ms, steps[0].stats.render_ms);
+    }
   }
 }
 

@@ -351,6 +351,8 @@ TEST_F(StateTest, StatusLine) {
   EXPECT_EQ(status_line(state_),
             "1 primitive  |  evaluate 80, parse 1.2, import 2.0, draw 7.5 ms  |  60 frames/s  |  "
             "cpu  |  640 x 480  |  reading");
+  state_.painting->light_ms = 2345.6;
+  EXPECT_THAT(status_line(state_), HasSubstr("draw 7.5 ms, light 2346 ms  |  60 frames/s"));
 }
 
 TEST_F(StateTest, StatusLineIsShortenedByWhatMattersLeast) {
