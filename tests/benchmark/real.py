@@ -1,8 +1,8 @@
 """The section "real": designs of the kinds that people publish, from the text to the picture, to the picture after a
 save, and to the STL; by scadray, OpenSCAD 2021.01, and OpenSCAD's snapshot of 2025.07.18 by Manifold.
 
-{"designs": [{"design", "kind", "primitives", "check": {"pixels", "undecided"}: of scadray's smooth picture, in which
-     none is wrong by rays in exact arithmetic, or null where they take too long,
+{"designs": [{"design", "kind", "primitives", "check": {"pixels", "undecided"}: of scadray's smooth picture at half the
+     size, in which none is wrong by rays in exact arithmetic, or null where they take too long,
    "facets_off": pixels that OpenSCAD's comparison leaves between its preview and scadray's picture of the same facets
      (thousands where the preview has holes, since the design names no `convexity`),
    "peer_off": pixels of OpenSCAD's preview that are visibly different from the exact picture,
@@ -12,7 +12,7 @@ save, and to the STL; by scadray, OpenSCAD 2021.01, and OpenSCAD's snapshot of 2
  "left_out": ["what: why"]}
 
 All but two are whole processes. save_ms is the window's, from the file's close to the screen, where a small part has
-changed. manifold_ms is what OpenSCAD's program takes within node, as one thread of WebAssembly, without its start.
+changed; by OpenSCAD's light, which the first picture of a save has in any. manifold_ms is what OpenSCAD's program takes within node, as one thread of WebAssembly, without its start.
 """
 
 import json
@@ -75,9 +75,8 @@ class Subject:
         first = once()
         if first is None:
             return None
-        if self.settings.quick or first > 1000:
-            return summary([first])
-        return summary([first] + [once() or first for _ in range(4)])
+        again = 0 if self.settings.quick or first > 1000 else 2
+        return summary([first] + [once() or first for _ in range(again)])
 
     def openscad_ms(self, suffix):
         def once():
@@ -105,7 +104,7 @@ class Subject:
 
     def check(self):
         """Compares scadray's pictures with the exact one, and with OpenSCAD's."""
-        judged = run([self.settings.judge, self.path, self.file(""), *SIZE], self.limit_s)
+        judged = run([self.settings.judge, self.path, self.file(""), *(side // 2 for side in SIZE)], self.limit_s)
         facts = None if judged.status else json.loads(judged.output)
         if not facts:
             self.left_out.add(f"exact rays, {self.path.stem}",
