@@ -21,6 +21,7 @@ language::TextMetrics metrics_of(const MeasuredText& measured, const language::T
                                       align_of(text.valign, kVerticalWords));
   const bool has_ink = !measured.box().empty();
   language::TextMetrics result;
+  result.has_ink = has_ink;
   result.position = scaled(text.size, has_ink ? measured.box().min + offset : Vec2{0, 0});
   result.size = scaled(text.size, has_ink ? measured.box().max - measured.box().min : Vec2{0, 0});
   result.ascent = measured.ascent() / kOutlineUnits * text.size;

@@ -164,11 +164,22 @@ TEST(Calls, TraceAssignmentsAndParameters) {
   EXPECT_THAT(said_2026("module m(x) { x = floor(1.5); assert(false); }\nm(3);\n"),
               testing::HasSubstr("TRACE: call of 'm(x = 1)'"))
       << "what the parameter holds by now";
+  EXPECT_THAT(said_2026("module m($a, b, b) { assert(false); }\nm(1, 2);\n"),
+              testing::HasSubstr("TRACE: call of 'm($a = 1, b = 2, b = 2)'"));
   EXPECT_THAT(
       said_2026("a = 1;\na = 2;\na = assert(false);\n"),
       testing::EndsWith("TRACE: overwritten assignment to \"a\" (this is where the "
                         "assignment is evaluated) in file design.scad, line 1\n"
                         "TRACE: overwriting assignment to \"a\" in file design.scad, line 3\n"));
+}
+
+TEST(Calls, OfAStringOfSeveralLinesAreWhereItEnds) {
+  const std::string text = "a = \"x\ny\n\" + 1;\nb = 1 + \"\n\";\n";
+  for (const std::string& said : {said_2021(text), said_2026(text)}) {
+    EXPECT_EQ(said,
+              "WARNING: undefined operation (string + number) in file design.scad, line 3\n"
+              "WARNING: undefined operation (number + string) in file design.scad, line 4\n");
+  }
 }
 
 TEST(Calls, SayIn2026sWords) {

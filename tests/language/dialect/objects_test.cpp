@@ -165,6 +165,7 @@ class OneFont final : public TextMeter {
     if (text.font == "none") return std::nullopt;
     asked = text;
     TextMetrics metrics;
+    metrics.has_ink = text.text.find_first_not_of(' ') != std::string::npos;
     metrics.size = {text.size, 2};
     metrics.descent = -1;
     return metrics;
@@ -203,6 +204,7 @@ TEST(Metrics, AskTheFonts) {
   EXPECT_EQ(font->asked.spacing, 2);
   EXPECT_EQ(font->asked.valign, "default");
   EXPECT_EQ(measured("textmetrics(em=50).size", font), "ECHO: [36, 2]\n");
+  EXPECT_EQ(measured("textmetrics(\" \",size=0,halign=\"top\").size", font), "ECHO: [0, 2]\n");
   EXPECT_EQ(measured("fontmetrics(7,\"F\")", font),
             "ECHO: { nominal = { ascent = 7; descent = -1; }; max = { ascent = 3; descent = -2; }; "
             "interline = 4; font = { family = \"F\"; style = \"S\"; }; }\n");

@@ -19,6 +19,7 @@ struct TextRequest {
 
 /// Where a text lies in the plane, in its units.
 struct TextMetrics {
+  bool has_ink = false;
   std::array<double, 2> position{}, size{};  // of the box around the letters
   double ascent = 0, descent = 0;            // above and below the baseline; below is negative
   std::array<double, 2> offset{};            // that alignment makes, of the first letter's origin

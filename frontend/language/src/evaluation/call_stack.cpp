@@ -167,11 +167,11 @@ const TraceRegion* CallStack::tail_call(const Frame& frame) const {
 
 std::string CallStack::call_text(const Frame& frame) {
   std::string text = text_of(frame.callee->name) + "(";
-  const ParameterList& parameters = frame.callee->parameters;
-  for (uint32_t slot = 0; slot < parameters.declared_slots; ++slot) {
-    if (slot > 0) text += ", ";
-    text += text_of(parameters.slot_names[slot]) + " = ";
-    append_quoted_text(text, values[frame.base + slot]);
+  const char* before = "";
+  for (const Target& parameter : frame.callee->parameters.targets) {  // twice if it is listed twice
+    if (parameter.is_dynamic) continue;
+    text += std::exchange(before, ", ") + text_of(parameter.name) + " = ";
+    append_quoted_text(text, values[frame.base + parameter.slot]);
   }
   return text + ")";
 }

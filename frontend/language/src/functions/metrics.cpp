@@ -56,9 +56,8 @@ Value text_metrics(const FunctionCall& call) {
   TextMeter* const meter = call.environment.text_meter;
   const auto metrics = meter ? meter->measure(text, call.environment.fonts) : std::nullopt;
   if (!metrics) return no_font(call, text.font);
-  const bool has_ink = metrics->size[0] != 0 || metrics->size[1] != 0 || text.size == 0;
-  if (has_ink) check_alignment(call, kHorizontal, text.halign);
-  if (has_ink) check_alignment(call, kVertical, text.valign);
+  if (metrics->has_ink) check_alignment(call, kHorizontal, text.halign);
+  if (metrics->has_ink) check_alignment(call, kVertical, text.valign);
   ObjectWriter object;
   object.set("position", pair_of(metrics->position));
   object.set("size", pair_of(metrics->size));

@@ -242,6 +242,7 @@ void Lexer::lex_string(Token& token) {
     return;
   }
   string_.assign(text, cursor_);
+  bool has_lines = false;
   while (*cursor_ != '"') {
     if (cursor_ == end_) return lex_unterminated(token, "string");
     if (*cursor_ == '\\') {
@@ -252,8 +253,10 @@ void Lexer::lex_string(Token& token) {
       continue;
     }
     if (*cursor_ != '\n' && *cursor_ != '\0') string_ += *cursor_;
+    if (*cursor_ == '\n') has_lines = true;
     ++cursor_;
   }
+  if (has_lines) token.place = position();
   ++cursor_;
   token.text = store(string_);
 }

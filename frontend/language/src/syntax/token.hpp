@@ -88,7 +88,7 @@ inline void add_first_names(NameTable& names) {
 struct Token {
   TokenKind kind = TokenKind::kEnd;
   Name name = kNoName;    // of a name or a reserved word
-  Place place;            // of its first byte
+  Place place;            // of its first byte; of the last one of a string of several lines
   double number = 0;      // of kNumber
   std::string_view text;  // of a string, escapes replaced
 
