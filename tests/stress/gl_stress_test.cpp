@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(, GlStressTest, testing::ValuesIn(stress::families()),
 TEST(GlRandomTrees, AreMeasuredAgainstTheOracle) {
   constexpr double kMostWrong = 1e-3;
   constexpr stress::PictureSize kPicture{32, 32};
-  const uint32_t trees = test_support::full_run() ? 10'000 : 16;
+  const uint32_t trees = test_support::full_run() ? 10'000 : 8;
   const auto number = [](uint64_t n) { return static_cast<unsigned long long>(n); };
   for (const stress::Method& method : {gl_method(8), gl_tiles()}) {
     stress::Tally sum;

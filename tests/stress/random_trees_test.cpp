@@ -43,7 +43,7 @@ uint32_t trees_of_a_part(stress::Leaves leaves) {
   if (leaves == stress::Leaves::kProfiles) {
     return test_support::full_run() ? kProfileTreesOfAFullPart : kProfileTreesOfAPart;
   }
-  return test_support::full_run() ? 1000 : 120;
+  return test_support::full_run() ? 1000 : 60;
 }
 
 Hits picture_by(const Method& method, const Scene& scene, const View& view) {

@@ -27,7 +27,7 @@ inline bool does_less() {
 
 /// Returns how many random inputs a test takes of a sample of so many.
 inline uint32_t sample_size(uint32_t inputs) {
-  return does_less() ? std::max(1u, inputs / 4) : inputs;
+  return does_less() ? std::max(1u, inputs / 8) : inputs;
 }
 
 }  // namespace test_support

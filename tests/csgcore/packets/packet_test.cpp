@@ -161,11 +161,14 @@ const Variant& variant_of(size_t number) {
 /// mesh_crossings_test.cpp has the others.
 template <typename Visit>
 void for_each_target(std::mt19937& random, Visit&& visit) {
+  const std::vector<Variant>& variants = test_support::convex_variants();
   const int rounds = test_support::full_run() ? 20 : 1;
   for (int round = 0; round < rounds; ++round) {
     for (const Placement& placement : kPlacements) {
       for (int map = 0; map < kMapKinds; ++map) {
-        for (const Variant& variant : test_support::convex_variants()) {
+        for (size_t i = 0; i < variants.size(); ++i) {
+          if (test_support::does_less() && (size_t(map) + i) % 3 != 0) continue;
+          const Variant& variant = variants[i];
           SCOPED_TRACE(variant.name);
           visit(Target(variant, placement, static_cast<MapKind>(map), random), placement);
           if (testing::Test::HasFailure()) return;

@@ -122,8 +122,8 @@ TEST_P(KnownSolids, AreCrossedWhereTheyAre) {
   std::mt19937 random(10);
   double worst = 0;
   int crossed = 0;
-  const int rounds = test_support::full_run() ? 1000 : 60;
-  for (int round = 0; round < rounds; ++round) {
+  const uint32_t rounds = test_support::full_run() ? 1000 : test_support::sample_size(60);
+  for (uint32_t round = 0; round < rounds; ++round) {
     const Affine map = random_map(random);
     for (Pair& pair : known_solids(random)) {
       SCOPED_TRACE(pair.name);
