@@ -65,11 +65,13 @@ bool load(FontLibraries::Fontconfig& fontconfig) {
   Library library("libfontconfig.so.1");
   library.find("FcInitLoadConfigAndFonts", fontconfig.init_load_config_and_fonts);
   library.find("FcConfigCreate", fontconfig.config_create);
+  library.find("FcConfigGetFilename", fontconfig.config_get_filename);
   library.find("FcConfigParseAndLoad", fontconfig.config_parse_and_load);
   library.find("FcConfigGetCacheDirs", fontconfig.config_get_cache_dirs);
   library.find("FcConfigBuildFonts", fontconfig.config_build_fonts);
   library.find("FcStrListNext", fontconfig.str_list_next);
   library.find("FcStrListDone", fontconfig.str_list_done);
+  library.find("FcStrFree", fontconfig.str_free);
   library.find("FcConfigDestroy", fontconfig.config_destroy);
   library.find("FcConfigUptoDate", fontconfig.config_up_to_date);
   library.find("FcConfigAppFontAddFile", fontconfig.config_app_font_add_file);
@@ -102,14 +104,17 @@ std::optional<FontLibraries> loaded() {
 
 FcConfig* FontLibraries::Fontconfig::load_fonts() const {
   // FcInitLoadConfigAndFonts() reads all settings that the system offers as well, used or not, for
-  // their descriptions: 1.7 ms of 4.5. It stays for settings that name no cache.
+  // their descriptions: 1.7 ms of 4.5. It stays where there are none, and where they name no cache.
   FcConfig* const config = config_create();
-  if (config != nullptr && config_parse_and_load(config, nullptr, FcFalse) == FcTrue) {
+  FcChar8* const file = config != nullptr ? config_get_filename(config, nullptr) : nullptr;
+  bool has_cache = false;
+  if (file != nullptr && config_parse_and_load(config, file, FcFalse) == FcTrue) {
     FcStrList* const caches = config_get_cache_dirs(config);
-    const bool has_cache = caches != nullptr && str_list_next(caches) != nullptr;
+    has_cache = caches != nullptr && str_list_next(caches) != nullptr;
     if (caches != nullptr) str_list_done(caches);
-    if (has_cache && config_build_fonts(config) == FcTrue) return config;
   }
+  if (file != nullptr) str_free(file);
+  if (has_cache && config_build_fonts(config) == FcTrue) return config;
   if (config != nullptr) config_destroy(config);
   return init_load_config_and_fonts();
 }

@@ -49,11 +49,13 @@ struct FontLibraries {
   struct Fontconfig {
     decltype(&FcInitLoadConfigAndFonts) init_load_config_and_fonts;
     decltype(&FcConfigCreate) config_create;
+    decltype(&FcConfigGetFilename) config_get_filename;
     decltype(&FcConfigParseAndLoad) config_parse_and_load;
     decltype(&FcConfigGetCacheDirs) config_get_cache_dirs;
     decltype(&FcConfigBuildFonts) config_build_fonts;
     decltype(&FcStrListNext) str_list_next;
     decltype(&FcStrListDone) str_list_done;
+    decltype(&FcStrFree) str_free;
     decltype(&FcConfigDestroy) config_destroy;
     decltype(&FcConfigUptoDate) config_up_to_date;
     decltype(&FcConfigAppFontAddFile) config_app_font_add_file;

@@ -72,15 +72,17 @@ MeasuredText::MeasuredText(const std::vector<ShapedGlyph>& glyphs, double spacin
                            FontFace& font)
     : is_vertical_(is_vertical) {
   for (const ShapedGlyph& glyph : glyphs) {
-    const Rectangle& box = font.pixel_box(glyph.index);
-    if (!box.empty()) {
+    const Rectangle& pixels = font.pixel_box(glyph.index);
+    if (!pixels.empty()) {
+      const Rectangle box{pixels.min / kOutlineUnits, pixels.max / kOutlineUnits};
       ascent_ = is_empty_ ? box.max.y : std::max(ascent_, box.max.y);
       descent_ = is_empty_ ? box.min.y : std::min(descent_, box.min.y);
       is_empty_ = false;
-      box_.merge(box.min + advance_ + glyph.offset);
-      box_.merge(box.max + advance_ + glyph.offset);
+      const Vec2 place = advance_ + glyph.offset / kOutlineUnits;
+      box_.merge(place + box.min);
+      box_.merge(place + box.max);
     }
-    advance_ += spacing * glyph.advance;
+    advance_ += spacing * (glyph.advance / kOutlineUnits);
   }
 }
 
@@ -95,7 +97,7 @@ Vec2 MeasuredText::offset(HorizontalAlign halign, VerticalAlign valign) const {
   }
   if (halign == HorizontalAlign::kCenter) offset.x = -advance_.x / 2;
   if (halign == HorizontalAlign::kRight) offset.x = -advance_.x;
-  if (valign == VerticalAlign::kCenter) offset.y = -(ascent_ + descent_) / 2;
+  if (valign == VerticalAlign::kCenter) offset.y = -descent_ - (ascent_ - descent_) / 2;
   if (valign == VerticalAlign::kTop) offset.y = -ascent_;
   if (valign == VerticalAlign::kBottom) offset.y = -descent_;
   return offset;
@@ -115,7 +117,7 @@ std::vector<PlacedGlyph> lay_out(const TextSettings& text, const TextRun& run, F
     // The letters' boxes, which take a while to load, do not matter.
   } else if (text.is_placed_exactly) {
     const MeasuredText measured(glyphs, text.spacing, run.is_vertical(), font);
-    at = measured.offset(text.halign, text.valign);
+    at = kOutlineUnits * measured.offset(text.halign, text.valign);
   } else {
     const Measures measures = measures_of(glyphs, text, run.is_vertical(), font);
     at = {aligned_x(text.halign, measures), aligned_y(text.valign, measures)};

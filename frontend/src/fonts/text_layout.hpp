@@ -85,7 +85,7 @@ struct PlacedGlyph {
   PlaneMap place;  // from the shape's units
 };
 
-/// The lengths of a text that OpenSCAD's development snapshots align it by, in the outlines' units.
+/// The lengths of a text of size 1 that OpenSCAD's development snapshots align it by.
 class MeasuredText {
  public:
   MeasuredText(const std::vector<ShapedGlyph>& glyphs, double spacing, bool is_vertical,

@@ -12,9 +12,7 @@
 namespace frontend {
 namespace {
 
-std::array<double, 2> scaled(double size, const Vec2& v) {
-  return {v.x / kOutlineUnits * size, v.y / kOutlineUnits * size};
-}
+std::array<double, 2> scaled(double size, const Vec2& v) { return {v.x * size, v.y * size}; }
 
 language::TextMetrics metrics_of(const MeasuredText& measured, const language::TextRequest& text) {
   const Vec2 offset = measured.offset(align_of(text.halign, kHorizontalWords),
@@ -24,8 +22,8 @@ language::TextMetrics metrics_of(const MeasuredText& measured, const language::T
   result.has_ink = has_ink;
   result.position = scaled(text.size, has_ink ? measured.box().min + offset : Vec2{0, 0});
   result.size = scaled(text.size, has_ink ? measured.box().max - measured.box().min : Vec2{0, 0});
-  result.ascent = measured.ascent() / kOutlineUnits * text.size;
-  result.descent = measured.descent() / kOutlineUnits * text.size;
+  result.ascent = measured.ascent() * text.size;
+  result.descent = measured.descent() * text.size;
   result.offset = scaled(text.size, offset);
   result.advance = scaled(text.size, measured.advance());
   return result;

@@ -12,6 +12,7 @@
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/solid.hpp"
 #include "fonts/design_fonts.hpp"
+#include "fonts/text_meter.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "temporary_folder.hpp"
@@ -351,6 +352,37 @@ TEST_F(Text, HasTheFeaturesThatItsFontNames) {
   EXPECT_NEAR(width(":fontfeatures=-kern", language::LanguageVersion::k2026), 27.737, 2e-3);
   EXPECT_EQ(width(":fontfeatures=-kern", language::LanguageVersion::k2021),
             width("", language::LanguageVersion::k2021));
+}
+
+/// As OpenSCAD 2025.07.18 measures these, to the last bit: in which order it divides and adds
+/// shows.
+TEST_F(Text, IsMeasuredToTheLastBit) {
+  struct Measured {
+    const char* text;
+    double size, advance, bottom, width, height, offset;
+  };
+  constexpr Measured kMeasured[] = {{"nbe", 7, 16.22103, -3.5728000000000004, 15.146180000000001,
+                                     7.145600000000001, -3.474240000000001},
+                                    {"kkohdbka", 11.1, 65.99504999999999, -5.66544,
+                                     64.95842099999999, 11.33088, -5.509152000000001},
+                                    {"aaaoma", 11.1, 55.712120999999996, -4.2268799999999995,
+                                     55.05910799999999, 8.453759999999999, -4.0705919999999995}};
+  const auto meter = make_text_meter();
+  const std::string fonts[] = {kLiberation};
+  for (const Measured& wanted : kMeasured) {
+    language::TextRequest request;
+    request.text = wanted.text;
+    request.size = wanted.size;
+    request.font = "Liberation Sans";
+    request.valign = "center";
+    const auto found = meter->measure(request, fonts);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->advance[0], wanted.advance);
+    EXPECT_EQ(found->position[1], wanted.bottom);
+    EXPECT_EQ(found->size[0], wanted.width);
+    EXPECT_EQ(found->size[1], wanted.height);
+    EXPECT_EQ(found->offset[1], wanted.offset);
+  }
 }
 
 TEST_F(Text, ScalesAboutTheOriginOfItsExtrusion) {
