@@ -87,7 +87,7 @@ def main():
                         help="only this one, and the others as they were; repeatable")
     parser.add_argument("--scadray", default=str(build / "frontend/scadray"), help="the program that is measured")
     parser.add_argument("--judge", default=str(build / "tests/benchmark/benchmark_judge"))
-    parser.add_argument("--peer-limit", type=float, default=60, metavar="S", help="a peer's limit for a picture")
+    parser.add_argument("--peer-limit", type=float, default=15, metavar="S", help="a peer's limit for a picture")
     parser.add_argument("--most", type=int, default=1_000_000, metavar="N", help="to which designs grow")
     parser.add_argument("--threads", type=int, default=2, help="of scadray and POV-Ray")
     parser.add_argument("--quick", action="store_true", help="a few of each kind, to see that all works")

@@ -35,7 +35,7 @@ class Settings:
     scadray: str
     judge: str
     work: pathlib.Path  # for designs and pictures; kept from run to run
-    peer_limit_s: float = 60  # a picture for which a peer takes longer is left out, with all harder ones
+    peer_limit_s: float = 15  # a picture for which a peer takes longer is left out, with all harder ones
     most: int = 1_000_000  # the largest size of a growing design
     quick: bool = False  # measure a few of each kind, to see that all works
     threads: int = 2
