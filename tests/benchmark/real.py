@@ -12,7 +12,8 @@ save, and to the STL; by scadray, OpenSCAD 2021.01, and OpenSCAD's snapshot of 2
  "left_out": ["what: why"]}
 
 All but two are whole processes. save_ms is the window's, from the file's close to the screen, where a small part has
-changed; by OpenSCAD's light, which the first picture of a save has in any. manifold_ms is what OpenSCAD's program takes within node, as one thread of WebAssembly, without its start.
+changed, by OpenSCAD's light, as the first picture of a save is in any light. manifold_ms is what OpenSCAD's program
+takes within node, as one thread of WebAssembly, without its start.
 """
 
 import json
@@ -155,10 +156,10 @@ class Subject:
         self.check()
         suffix = self.model()
         picture, model = self.file(".png"), self.file(suffix)
-        commands = [picture_command(self.settings, self.path, picture),
-                    [self.settings.scadray, "-q", f"--threads={self.settings.threads}", "-o", model, self.path]]
-        works = [lambda command=command: run_right(command).wall_ms for command in commands]
-        self.result["picture_ms"], self.result["model_ms"] = in_turn(works, self.settings, 5, 15)
+        commands = {"picture_ms": picture_command(self.settings, self.path, picture),
+                    "model_ms": [self.settings.scadray, "-q", f"--threads={self.settings.threads}", "-o", model, self.path]}
+        for key, command in commands.items():  # one after the other, as the peers
+            self.result[key], = in_turn([lambda: run_right(command).wall_ms], self.settings, 5, 15, 1000)
         self.result["save_ms"] = self.save_ms()
         self.result["preview_ms"] = self.openscad_ms(".peer.png")
         self.result["render_ms"] = self.openscad_ms(".peer" + suffix)
