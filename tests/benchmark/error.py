@@ -19,7 +19,6 @@ import dataclasses
 import json
 import re
 import shutil
-import time
 import types
 
 import numpy
@@ -50,7 +49,6 @@ GROWTH = 3.5  # with twice the fragments, an exact solid takes about this many t
 # The share of the pixels in which OpenSCAD's picture of its facets may differ from the exact one of the same facets:
 # if more differ, the camera or the colours are different.
 MOST_DIFFERING = 0.02
-PAUSE_S = 0.1  # before each run: an X server starts over when OpenSCAD has gone, for some 50 ms
 
 
 @dataclasses.dataclass
@@ -226,7 +224,6 @@ class Scene:
         return next((bar for bar in BARS if bar[:3] == (candidate.series, candidate.setting, self.subject.name)), None)
 
     def run(self, point):
-        time.sleep(PAUSE_S)
         candidate = point.candidate
         if candidate.series.startswith("OpenSCAD"):
             self.subject.file(".openscad.png").unlink(missing_ok=True)  # it exits with 0 even if it writes nothing
