@@ -90,7 +90,7 @@ def tolerances(settings):
 
 
 def measure(settings):
-    left_out, name = LeftOut(), "r9" if settings.quick else "cs1000"
+    left_out, name = LeftOut(), "r9" if settings.quick else "cs100"
     left_out.add("the kernel, CS10000", "takes minutes, its judge included")
     return {"kernel": list(kernel(settings, left_out)), "formats_of": name,
             "formats": list(formats(settings, design(name, settings))), "tolerances": list(tolerances(settings)),
