@@ -497,6 +497,8 @@ def write_paper(section, folder):
     panels = []
     for key, parameter, axis in (("area", "hits", "pixels that show it"),
                                  ("depth", "copies", "copies behind each other")):
+        if key not in section:  # it was ended before
+            continue
         panels.append(Panel(f"{title(section[key]['design'])}: {key}", axis, "T_R in ms", log_x=False, log_y=False))
         for point in section[key]["points"]:
             for renderer, name in RENDERERS.items():
