@@ -32,14 +32,14 @@ class Display:
 
 
 class Window:
-    """A live window, and the lines of its statistics. Its light is OpenSCAD's unless an option says otherwise: a line
-    is of a finished picture, and the studio's light takes seconds to finish."""
+    """A live window, and the lines of its statistics. Its light is OpenSCAD's: a line is of a finished picture, and
+    the studio's light takes seconds to finish."""
 
-    def __init__(self, program, design, folder, display, *options):
+    def __init__(self, program, design, folder, display):
         self.path = folder / "stats"
         self.path.unlink(missing_ok=True)
         self.process = subprocess.Popen(
-            [program, "--imgsize=640,480", "--shading=openscad", *options, f"--stats={self.path}", str(design)],
+            [program, "--imgsize=640,480", "--shading=openscad", f"--stats={self.path}", str(design)],
             env=dict(os.environ, DISPLAY=display, XDG_STATE_HOME=str(folder)), stderr=subprocess.DEVNULL)
         self.seen = 0
         self.next_picture()
