@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "temporary_folder.hpp"
@@ -31,12 +32,16 @@ class ModelExporterTest : public testing::Test {
   }
   ModelOutcome wait() {
     const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (std::chrono::steady_clock::now() < end) {
-      if (auto outcome = exporter_.take_outcome()) return *outcome;
+    while (news_ == taken_ && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    ADD_FAILURE() << "the export does not end";
-    return {};
+    const std::optional<ModelOutcome> outcome = exporter_.take_outcome();
+    if (!outcome) {
+      ADD_FAILURE() << "the export does not end";
+      return {};
+    }
+    ++taken_;
+    return *outcome;
   }
   ModelOutcome write(const std::string& file) {
     exporter_.start(order(file));
@@ -45,6 +50,7 @@ class ModelExporterTest : public testing::Test {
 
   frontend::TemporaryFolder folder_;
   std::atomic<int> news_{0};
+  int taken_ = 0;
   ModelExporter exporter_{[this] { ++news_; }};
 };
 

@@ -12,6 +12,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/tracer.hpp"
 #include "made.hpp"
+#include "support/full_run.hpp"
 #include "support/models.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
@@ -204,7 +205,8 @@ TEST(EqualOperands, PicturesAreThoseOfAllOperands) {
   uint64_t left_out = 0;
   uint64_t pixels = 0;
   uint64_t differing = 0;
-  for (uint32_t seed = 1; seed <= 60; ++seed) {
+  const uint32_t trees = test_support::sample_size(60);
+  for (uint32_t seed = 1; seed <= trees; ++seed) {
     const Made made(tree_of_few_kinds(seed));
     const Made apart(with_tiny_differences(made.scene));
     if (made.solid.bounds().empty()) continue;
@@ -218,8 +220,8 @@ TEST(EqualOperands, PicturesAreThoseOfAllOperands) {
       differing += hits.primitive[i] != others.primitive[i];
     }
   }
-  EXPECT_GT(left_out, 100u);
-  EXPECT_GT(pixels, 10000u);
+  EXPECT_GT(left_out, 100u * trees / 60);
+  EXPECT_GT(pixels, 10000u * trees / 60);
   // At silhouettes and edges the last bit decides.
   EXPECT_LE(differing, pixels / 1000);
 }
