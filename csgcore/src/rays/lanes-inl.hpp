@@ -70,15 +70,11 @@ HWY_INLINE LaneMask float_lanes(size_t first) {
 
 /// A number that stands for 1/0 in float: its product with 0 is 0.
 constexpr double kLargestInverse = 1e30;
-HWY_INLINE float inverse_in_float(double x) {
-  const double inverse =
-      std::abs(x) * kLargestInverse > 1 ? 1 / x : std::copysign(kLargestInverse, x);
-  return static_cast<float>(inverse);
-}
 /// Returns 1/x, and that number where it would be larger.
-HWY_INLINE WideV bounded_inverse(Wide d, WideV x) {
-  const WideV one = hn::Set(d, 1.0), largest = hn::Set(d, kLargestInverse);
-  const WideM has_inverse = hn::Gt(hn::Mul(hn::Abs(x), largest), one);
+template <typename D>
+HWY_INLINE hn::Vec<D> bounded_inverse(D d, hn::Vec<D> x) {
+  const hn::Vec<D> one = hn::Set(d, 1.0), largest = hn::Set(d, kLargestInverse);
+  const hn::Mask<D> has_inverse = hn::Gt(hn::Mul(hn::Abs(x), largest), one);
   return hn::IfThenElse(has_inverse, hn::Div(one, x), hn::CopySign(largest, x));
 }
 
