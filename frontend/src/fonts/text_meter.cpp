@@ -17,11 +17,12 @@ std::array<double, 2> scaled(double size, const Vec2& v) { return {v.x * size, v
 language::TextMetrics metrics_of(const MeasuredText& measured, const language::TextRequest& text) {
   const Vec2 offset = measured.offset(align_of(text.halign, kHorizontalWords),
                                       align_of(text.valign, kVerticalWords));
-  const bool has_ink = !measured.box().empty();
   language::TextMetrics result;
-  result.has_ink = has_ink;
-  result.position = scaled(text.size, has_ink ? measured.box().min + offset : Vec2{0, 0});
-  result.size = scaled(text.size, has_ink ? measured.box().max - measured.box().min : Vec2{0, 0});
+  result.has_ink = !measured.box().empty();
+  if (result.has_ink) {
+    result.position = scaled(text.size, measured.box().min + offset);
+    result.size = scaled(text.size, measured.box().max - measured.box().min);
+  }
   result.ascent = measured.ascent() * text.size;
   result.descent = measured.descent() * text.size;
   result.offset = scaled(text.size, offset);
