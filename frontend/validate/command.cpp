@@ -1,12 +1,11 @@
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <optional>
 #include <utility>
 
+#include "csgcore/workers.hpp"
 #include "extrusion_judge.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
@@ -132,10 +131,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
                                 "scadray-validate version " SCADRAY_VERSION)) {
     return ExitCode::kDone;
   }
-  std::optional<tbb::global_control> threads;
-  if (options.threads > 0) {
-    threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-  }
+  const csgcore::ThreadLimit limit(options.threads);
   return Run(options).execute();
 }
 

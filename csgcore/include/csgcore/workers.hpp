@@ -1,8 +1,11 @@
-// The worker threads of csgcore, started ahead.
+// The worker threads of csgcore: started ahead, and how many they may be.
 #pragma once
+
+#include <tbb/global_control.h>
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace csgcore {
 
@@ -23,6 +26,18 @@ class Workers {
  private:
   struct Started;
   std::unique_ptr<Started> started_;
+};
+
+/// As long as it lives, no more than the given number of threads work in this process; 0: as many
+/// as there are.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(unsigned threads) {
+    if (threads > 0) limit_.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  }
+
+ private:
+  std::optional<tbb::global_control> limit_;
 };
 
 }  // namespace csgcore

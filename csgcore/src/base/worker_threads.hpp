@@ -1,8 +1,9 @@
 // The number of threads that work on one task.
 #pragma once
 
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+
+#include "csgcore/workers.hpp"
 
 namespace csgcore {
 
@@ -15,7 +16,7 @@ void with_threads(unsigned threads, Work&& work) {
     return;
   }
   // TBB warns on stderr if an arena asks for more threads than the process is allowed.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+  const ThreadLimit limit(threads);
   tbb::task_arena arena(static_cast<int>(threads));
   arena.execute(work);
 }

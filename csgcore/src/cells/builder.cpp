@@ -1,14 +1,12 @@
 #include "cells/builder.hpp"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
+#include "base/worker_threads.hpp"
 #include "cells/cell_budget.hpp"
 #include "cells/chunk.hpp"
 
@@ -173,17 +171,11 @@ Builder::Builder(const Solid& solid, const SubdivisionOptions& options, double o
 template <typename Work>
 void Builder::run(bool in_parallel, Work&& work) {
   in_parallel_ = in_parallel && options_.threads != 1;
-  if (!in_parallel_) {
+  if (in_parallel_) {
+    with_threads(options_.threads, work);
+  } else {
     work();
-    return;
   }
-  const unsigned threads =
-      options_.threads == 0 ? std::thread::hardware_concurrency() : options_.threads;
-  // TBB warns on stderr if an arena asks for more threads than the process is allowed.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    std::max(threads, 1u));
-  tbb::task_arena arena(static_cast<int>(std::max(threads, 1u)));
-  arena.execute(work);
 }
 
 Chunk Builder::build(const Box& root_box) {

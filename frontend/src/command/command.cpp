@@ -241,6 +241,7 @@ class Run {
     if (options_.render.show == Show::kSurface && !sees_nothing(camera, view.projection)) {
       draw_flat_outlines(image, view, camera, design_, scheme);
     }
+    const csgcore::ThreadLimit limit(options_.render.threads);
     draw_overlays(image, view, camera, options_.overlays, scheme, design_);
     for (size_t i = 0; i < options_.outputs.size(); ++i) {
       const Output& output = options_.outputs[i];

@@ -1,6 +1,5 @@
 #include "frontend/model_export.hpp"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "arguments/node_problems.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/stop_scope.hpp"
+#include "csgcore/workers.hpp"
 #include "export/colored_parts.hpp"
 #include "export/model_writers.hpp"
 #include "export/written_mesh.hpp"
@@ -47,13 +47,6 @@ Polygons outlines_of(const ImportedDesign& design) {
     outlines.emplace_back(outline.begin(), outline.end());
   }
   return outlines;
-}
-
-/// Limits the threads that work, unless it is 0, as long as the result lives.
-std::optional<tbb::global_control> limit_of(unsigned threads) {
-  std::optional<tbb::global_control> limit;
-  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  return limit;
 }
 
 csgcore::Box box_of(const TriangleSet& surface) {
@@ -162,7 +155,7 @@ void ModelExport::check(ModelFormat format) const {
 
 std::string ModelExport::encode(ModelFormat format) {
   check(format);
-  const std::optional<tbb::global_control> limit = limit_of(threads_);
+  const csgcore::ThreadLimit limit(threads_);
   if (is_plane_format(format)) return encoded(outlines_of(design_), format, settings_);
   if (format == ModelFormat::k3mf) {
     std::vector<ExportedPart> written;
@@ -263,7 +256,7 @@ const TriangleSet& ModelExport::surface() {
 std::optional<ModelFigures> ModelExport::figures() {
   if (!design_.flat_outlines.empty()) return figures_of(outlines_of(design_));
   if (design_.is_plane_figure || design_.scene.model.empty()) return std::nullopt;
-  const std::optional<tbb::global_control> limit = limit_of(threads_);
+  const csgcore::ThreadLimit limit(threads_);
   const TriangleSet mesh = written_mesh(surface_or_nothing(), Precision::kDouble, tree_.name);
   if (mesh.triangles.empty()) return std::nullopt;
   return figures_of(mesh);
