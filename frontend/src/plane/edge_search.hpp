@@ -22,8 +22,10 @@ struct MovingCorner {
 };
 
 struct EdgeMeeting {
-  double time = std::numeric_limits<double>::infinity();
-  uint32_t edge = 0;
+  static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+  double time;
+  uint32_t edge = kNone;
 };
 
 /// A hierarchy of boxes over the edges, which move and grow as the edges do.
@@ -38,12 +40,12 @@ class EdgeSearch {
   void end_growth(uint32_t edge, bool is_start, double time);
 
   /// Returns the first time from `after` on, but for `tolerance`, at which the corner meets an edge
-  /// that moves towards it, where that may extend; an infinite time if there is none. Those are
-  /// left out for which is_met(edge, time) is false.
+  /// that moves towards it, where that may extend; the time `before`, and no edge, if there is none
+  /// before that. Those are left out for which is_met(edge, time) is false.
   template <typename IsMet>
-  EdgeMeeting first(const MovingCorner& corner, double after, double tolerance,
+  EdgeMeeting first(const MovingCorner& corner, double after, double before, double tolerance,
                     const IsMet& is_met) {
-    EdgeMeeting best;
+    EdgeMeeting best{before};
     for (const uint32_t edge : wide_) consider(edge, corner, after, tolerance, is_met, best);
     if (boxes_.empty()) return best;
     open_.assign(1, {0, after});

@@ -1,5 +1,6 @@
 #include "plane/wavefront.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,17 @@ constexpr double kSameDirection = 1e-9;
 }  // namespace
 
 Wavefront::Wavefront(const RoofEdges& edges)
-    : edges_(edges.edges), search_(edges_), parts_(edges_.size(), kNone) {
+    : edges_(edges.edges),
+      search_(edges_),
+      shortest_(edges.corners.size(), std::numeric_limits<double>::infinity()),
+      parts_(edges_.size(), kNone) {
+  for (const RoofEdge& edge : edges_) {
+    if (edge.start_corner == edge.end_corner) continue;
+    const double length = glm::length(edge.end - edge.start);
+    for (const uint32_t corner : {edge.start_corner, edge.end_corner}) {
+      shortest_[corner] = std::min(shortest_[corner], length);
+    }
+  }
   for (const Vec2& place : edges.corners) add_node(place, 0);
 }
 
@@ -100,11 +111,17 @@ void Wavefront::expect_collapse(uint32_t corner, double now) {
   collapses_.push({time, corner, left.next});
 }
 
-/// Finds out which edge a reflex corner meets.
+/// Finds out which edge a reflex corner meets. Most corners end soon, so that what lies far ahead
+/// is none of theirs: a corner looks ahead as far as it has come, at first by its shortest edge,
+/// and asks again when it is there.
 void Wavefront::expect_split(uint32_t corner, double now) {
   const WaveCorner& own = corners_[corner];
+  constexpr double kNearest = 1e-6, kFurthest = 4;  // none meets anything later
+  const double shortest = own.node < shortest_.size() ? shortest_[own.node] : kNearest;
+  const double ahead = std::max({2 * now, shortest, kNearest});
+  const double before = ahead < kFurthest ? ahead : std::numeric_limits<double>::infinity();
   const EdgeMeeting meeting =
-      search_.first(own.way, now, kSameTime, [&](uint32_t edge, double time) {
+      search_.first(own.way, now, before, kSameTime, [&](uint32_t edge, double time) {
         if (edge == own.before || edge == own.after) return false;
         // Where the outline touches itself in corners, they are parted.
         const bool is_start = time <= kSameTime && (edges_[edge].start_corner == own.node ||
@@ -177,6 +194,10 @@ bool Wavefront::run() {
       const bool is_slower = glm::length(own.way.velocity) < glm::length(other.velocity);
       const Vec2 place = (is_slower ? own.way : other).at(event.time);
       go_on(merge(event.corner, place, event.time), event.time);
+      continue;
+    }
+    if (event.other == EdgeMeeting::kNone) {
+      expect_split(event.corner, event.time);
       continue;
     }
     const uint32_t part = part_met(event.corner, event.other, event.time);

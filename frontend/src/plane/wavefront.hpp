@@ -61,7 +61,8 @@ class Wavefront {
   struct Event {
     double time;
     uint32_t corner;
-    /// The part from `corner` to this one has no length; or `corner` meets this edge.
+    /// The part from `corner` to this one has no length; or `corner` meets this edge, or none so
+    /// far as it has looked ahead.
     uint32_t other;
     bool operator>(const Event& event) const { return time > event.time; }
   };
@@ -97,7 +98,8 @@ class Wavefront {
   std::vector<SkeletonNode> nodes_;
   std::vector<RoofArc> arcs_;
   std::vector<WaveCorner> corners_;
-  std::vector<uint32_t> parts_;  // by edge: the corner that begins one of its parts
+  std::vector<double> shortest_;  // by corner of the outline: its shortest edge
+  std::vector<uint32_t> parts_;   // by edge: the corner that begins one of its parts
   Events collapses_, splits_;
   size_t alive_ = 0;
 };
