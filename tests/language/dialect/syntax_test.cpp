@@ -99,6 +99,18 @@ TEST(Dialect, HasComprehensionsInParenthesesFirst) {
   EXPECT_TRUE(is_error(said_2021("echo([(for (i = [1]) i)]);")));
 }
 
+TEST(Dialect, JoinsLoopsOverSeveralVariables) {
+  const std::string program =
+      "echo(function() [for (i = [1], j = i, 2) i]);echo(function() [for () 7]);"
+      "echo([for () 7], [for (i = [1, 2], j = [i : 2]) 10 * i + j]);";
+  EXPECT_EQ(said_2026(program),
+            "ECHO: function() [for(i = [1], j = i, 2) (i)]\nECHO: function() [for() (7)]\n"
+            "ECHO: [7], [11, 12, 22]\n");
+  EXPECT_EQ(said_2021(program),
+            "ECHO: function() [for(i = [1]) (for(j = i) (for(2) (i)))]\nECHO: function() [7]\n"
+            "ECHO: [7], [11, 12, 22]\n");
+}
+
 TEST(Dialect, HasNegativeNumbers) {
   const std::string program = "echo(function() [-0, - 1, -(-2), -2 ^ 2, -a]);";
   EXPECT_EQ(said_2026(program), "ECHO: function() [0, -1, 2, -(2 ^ 2), -a]\n");

@@ -49,6 +49,9 @@ class Dialect : public VersionTable {
   const bool tells_first_assignment = row(false, true);
   /// Whether a vector's first element may be a comprehension in parentheses.
   const bool has_comprehension_first = row(false, true);
+  /// Whether a comprehension over several variables is one loop, also over none; else several, and
+  /// over none its body, as the text of a function shows.
+  const bool joins_loops = row(false, true);
 
   /// How many symbols of nested code are stacked, and how many calls follow each other in a chain.
   const uint32_t most_symbols = row(19'994u, 199'994u);

@@ -76,7 +76,6 @@ void CodeCompiler::drop_to(uint32_t depth, Place place) {
 
 void CodeCompiler::for_elements(std::span<const Argument> sources, const BodyExpression& loop,
                                 bool is_in_heap, uint32_t vector) {
-  if (loop.arguments.empty()) return;  // for() runs nothing
   if (sources.empty()) return element_or_undef(loop.body, loop.place, vector);
   const Argument& source = sources.front();
   const bool has_name = source.name != kNoName;

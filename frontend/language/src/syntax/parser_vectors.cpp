@@ -100,9 +100,11 @@ const Expression* Parser::parse_for() {
   return make<ForCExpression>(ExpressionKind::kForC, place, init, condition, increment, body);
 }
 
-/// A loop over several variables is several loops.
 const Expression* Parser::make_for(std::span<const Argument> variables, const Expression* body,
                                    Place place) {
+  if (program_.dialect.joins_loops) {
+    return make<BodyExpression>(ExpressionKind::kFor, place, variables, body);
+  }
   for (size_t i = variables.size(); i-- > 0;)
     body = make<BodyExpression>(ExpressionKind::kFor, place, variables.subspan(i, 1), body);
   return body;

@@ -137,7 +137,7 @@ struct FunctionExpression : Expression {  // function(parameters) body
   const Expression* body;
 };
 struct BodyExpression : Expression {    // kLet, kAssert, kEcho, kFor
-  std::span<const Argument> arguments;  // of kFor one: loops over several variables are several
+  std::span<const Argument> arguments;  // of kFor one, unless the dialect joins loops
   const Expression* body;               // null: assert() or echo() without one
 };
 struct ForCExpression : Expression {
