@@ -414,7 +414,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
                     [](const Collector::PlaneLeaf& leaf) { return leaf.is_faceted; }));
   design.left_out = static_cast<uint32_t>(collected.left_out.size());
   const bool decides = needs_layers(collected, options.picture);
-  LeafBoxes boxes = boxes_of_leaves(collected, leaves, options.measures_leaves, decides);
+  LeafBoxes boxes = boxes_of_leaves(collected, leaves, trees, options.measures_leaves, decides);
   const std::vector<Box> thick =
       boxes_of_thick_plates(dialect.figure_thickness, collected, leaves, boxes.seen);
   design.axes_reach = dialect.axes_reach;

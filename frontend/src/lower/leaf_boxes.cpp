@@ -49,7 +49,7 @@ class BoxFinder {
   }
 
   /// `seen` has the boxes of the primitives.
-  LeafBoxes find(std::vector<Box> seen, bool measures_leaves, bool decides) {
+  LeafBoxes find(const Design& trees, std::vector<Box> seen, bool measures_leaves, bool decides) {
     LeafBoxes boxes{std::move(seen), {}};
     if (decides) {
       for (uint32_t i = 0; i < collected_.primitives.size(); ++i) {
@@ -59,21 +59,39 @@ class BoxFinder {
     const auto first = static_cast<uint32_t>(boxes.seen.size());
     for (uint32_t leaf = first; leaf < leaves_.size(); ++leaf) {
       const std::optional<Box>& known = leaves_.box(leaf);
+      boxes.seen.push_back(known ? *known
+                                 : box_of_positive_leaves(leaves_.solid(leaf), boxes.seen));
+    }
+    std::vector<bool> is_looked_at(leaves_.size());
+    if (measures_leaves && leaves_.has_compound()) is_looked_at = looked_at(trees, boxes.seen);
+    for (uint32_t leaf = first; leaf < leaves_.size(); ++leaf) {
+      const bool is_known = leaves_.box(leaf).has_value();
       const bool is_plate = is_of_plate_[leaves_.first_primitive(leaf)];
-      const bool is_measured = !is_plate && (decides || (measures_leaves && !known));
+      const bool is_measured =
+          !is_plate && (decides || (measures_leaves && !is_known && is_looked_at[leaf]));
       const Box rest = is_measured ? rest_of(leaf) : Box();
-      if (known) {
-        boxes.seen.push_back(*known);
-      } else {
-        const Box facets = box_of_positive_leaves(leaves_.solid(leaf), boxes.seen);
-        boxes.seen.push_back(is_measured ? combined_box(rest, frame_of(leaf), facets) : facets);
-      }
-      if (decides) boxes.deciding.push_back(is_plate ? boxes.seen.back() : rest);
+      Box& seen_box = boxes.seen[leaf];
+      if (is_measured && !is_known) seen_box = combined_box(rest, frame_of(leaf), seen_box);
+      if (decides) boxes.deciding.push_back(is_plate ? seen_box : rest);
     }
     return boxes;
   }
 
  private:
+  /// Returns by leaf whether --viewall looks at its box: not at those of what is subtracted.
+  std::vector<bool> looked_at(const Design& trees, std::span<const Box> boxes) const {
+    std::vector<bool> result(leaves_.size());
+    const auto mark = [&](const LeafTree& tree) {
+      for (const LeafUse& use : uses_of_leaves(tree, boxes)) {
+        if (!use.is_subtracted) result[use.leaf] = true;
+      }
+    };
+    mark(trees.model);
+    for (const LeafTree& part : trees.background) mark(part);
+    for (const LeafTree& part : trees.highlight) mark(part);
+    return result;
+  }
+
   const csgcore::Affine& frame_of(uint32_t leaf) const {
     return collected_.frames[leaves_.frame(leaf)].to_world;
   }
@@ -106,9 +124,10 @@ class BoxFinder {
 
 }  // namespace
 
-LeafBoxes boxes_of_leaves(Collector& collected, const Leaves& leaves, bool measures_leaves,
-                          bool decides) {
-  return BoxFinder(collected, leaves).find(std::move(collected.boxes), measures_leaves, decides);
+LeafBoxes boxes_of_leaves(Collector& collected, const Leaves& leaves, const Design& trees,
+                          bool measures_leaves, bool decides) {
+  return BoxFinder(collected, leaves)
+      .find(trees, std::move(collected.boxes), measures_leaves, decides);
 }
 
 Box box_of_result(const Collector& collected, const CsgTree& solid, const Box& facets) {

@@ -9,6 +9,7 @@
 #include "csgcore/primitive.hpp"
 #include "csgcore/solid.hpp"
 #include "lower/collector.hpp"
+#include "lower/composition.hpp"
 #include "solids/leaves.hpp"
 
 namespace frontend {
@@ -23,9 +24,10 @@ struct LeafBoxes {
 };
 
 /// Returns the boxes of all leaves. Takes those of the primitives from the collector. Those of
-/// compound leaves are tight if `measures_leaves` is true; `decides` asks for LeafBoxes::deciding.
-LeafBoxes boxes_of_leaves(Collector& collected, const Leaves& leaves, bool measures_leaves,
-                          bool decides);
+/// compound leaves that the trees do not subtract are tight if `measures_leaves` is true; `decides`
+/// asks for LeafBoxes::deciding.
+LeafBoxes boxes_of_leaves(Collector& collected, const Leaves& leaves, const Design& trees,
+                          bool measures_leaves, bool decides);
 
 /// Returns the box of the outcome of a final render. `facets` is that of the operands.
 csgcore::Box box_of_result(const Collector& collected, const csgcore::CsgTree& solid,

@@ -62,6 +62,14 @@ TEST(ImporterViewBox, CountsPositiveLeavesAndMarkedParts) {
   EXPECT_DOUBLE_EQ(
       width("intersection() {" + small + "multmatrix([[1,0,0,20]]) {" + large + "} } " + small), 1);
   EXPECT_TRUE(import_text("").view_box.empty());
+  // What is left of a leaf counts, wherever it is not subtracted.
+  const std::string rest =
+      "render() { difference() { cube([9, 9, 9]);"
+      "multmatrix([[1,0,0,3],[0,1,0,-1],[0,0,1,-1]]) { cube([20, 20, 20]); } } }";
+  EXPECT_NEAR(width(rest), 3, 1e-9);
+  EXPECT_DOUBLE_EQ(width("difference() {" + small + rest + "}"), 1);
+  EXPECT_NEAR(width("difference() {" + small + "#" + rest + "}"), 3, 1e-9);
+  EXPECT_NEAR(width("difference() {" + small + "difference() {" + small + rest + "} }"), 3, 1e-9);
 }
 
 }  // namespace
