@@ -123,6 +123,11 @@ TEST(Paths, AreShownFromTheMainFilesFolder) {
             "WARNING: undefined operation (number + string) in file more.scad, line 1\n"
             "ECHO: undef\n"
             "WARNING: variable b not specified as parameter in file lib.scad, line 2\n");
+  const BesideFiles nested = {{"sub/lib.scad", "use <used.scad>"},
+                              {"sub/used.scad", "a = 1;\na = 2;"}};
+  const auto path_of = [](const std::string& said) { return said.substr(said.rfind(" in file ")); };
+  EXPECT_EQ(path_of(said_2026("use <sub/lib.scad>", nested)), " in file sub/used.scad, line 2\n");
+  EXPECT_EQ(path_of(said_2021("use <sub/lib.scad>", nested)), " in file used.scad, line 2\n");
 }
 
 TEST(Parameters, AreWrittenAsJson) {

@@ -144,8 +144,8 @@ class Dialect : public VersionTable {
   const bool finds_files_beside_calls = row(false, true);
   /// Whether the place is said where a file that is included or used cannot be opened.
   const bool tells_place_of_missing_files = row(false, true);
-  /// Whether the paths in all messages of an evaluation are relative to the main file's folder;
-  /// else in some to that of the used file whose code is being evaluated.
+  /// Whether the paths in all messages are relative to the main file's folder; else in some to that
+  /// of the used file whose code is being evaluated, or of the file that uses what is parsed.
   const bool shows_paths_from_main_file = row(false, true);
 
   /// Whether $vpt, $vpr and $vpd are the camera of the command line when a design begins; else they

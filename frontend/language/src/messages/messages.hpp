@@ -33,8 +33,8 @@ class Messages {
   using Sink = std::function<void(const Message&)>;
   Messages(const SourceFiles& files, Sink sink);
 
-  /// Sets the main file, and the absolute folder that its path was given with. While a used file is
-  /// parsed, the file that uses it counts as the main file.
+  /// Sets the main file, and the absolute folder that its path was given with, or that paths are
+  /// shown from. While a used file is parsed, the file that uses it counts as the main file.
   void set_main_file(FileId file, std::string folder);
   FileId main_file() const { return main_file_; }
   /// Sets the absolute folder of the unit whose code is being evaluated.

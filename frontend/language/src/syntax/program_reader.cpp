@@ -134,7 +134,8 @@ void ProgramReader::parse_used() {
 }
 
 void ProgramReader::set_main_unit(uint32_t unit) {
-  messages_.set_main_file(program_.units[unit].file, program_.units[unit].folder);
+  const uint32_t shown_from = program_.dialect.shows_paths_from_main_file ? 0 : unit;
+  messages_.set_main_file(program_.units[unit].file, program_.units[shown_from].folder);
 }
 
 bool ProgramReader::parse(uint32_t unit_number) {
