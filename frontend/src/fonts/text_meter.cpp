@@ -19,10 +19,9 @@ language::TextMetrics metrics_of(const MeasuredText& measured, const language::T
                                       align_of(text.valign, kVerticalWords));
   language::TextMetrics result;
   result.has_ink = !measured.box().empty();
-  if (result.has_ink) {
-    result.position = scaled(text.size, measured.box().min + offset);
-    result.size = scaled(text.size, measured.box().max - measured.box().min);
-  }
+  const Rectangle box = result.has_ink ? measured.box() : Rectangle{Vec2(0.0), Vec2(0.0)};
+  result.position = scaled(text.size, result.has_ink ? box.min + offset : box.min);
+  result.size = scaled(text.size, box.max - box.min);
   result.ascent = measured.ascent() * text.size;
   result.descent = measured.descent() * text.size;
   result.offset = scaled(text.size, offset);

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -383,6 +385,10 @@ TEST_F(Text, IsMeasuredToTheLastBit) {
     EXPECT_EQ(found->size[1], wanted.height);
     EXPECT_EQ(found->offset[1], wanted.offset);
   }
+  language::TextRequest nothing;
+  nothing.size = std::numeric_limits<double>::infinity();
+  nothing.font = "Liberation Sans";
+  EXPECT_TRUE(std::isnan(meter->measure(nothing, fonts)->position[0]));
 }
 
 TEST_F(Text, ScalesAboutTheOriginOfItsExtrusion) {
