@@ -85,24 +85,15 @@ bool are_round(const std::vector<PlacedFigure>& figures, const TwistedLayers& la
 
 LoweredSubtree sliced(const Extrusion& extrusion) {
   const auto& data = std::get<LinearExtrudeNode>(extrusion.data);
-  LoweredSubtree result;
   std::optional<SlicedExtrusion> solid =
       sliced_extrusion(data, extrusion.node, extrusion.outcome(), extrusion.problems);
-  if (!solid) return result;
-  const csgcore::Affine to_world = compose(extrusion.to_world(), leaning(data.arguments));
-  result.box = mapped(to_world, solid->box);
-  result.is_faceted = extrusion.is_operand && !data.is_faceted;
+  if (!solid) return {};
   std::vector<Primitive> parts;
   if (!extrusion.is_operand) parts = std::move(solid->sheets);
   parts.push_back(std::move(solid->mesh));
-  csgcore::CsgTreeBuilder builder;
-  for (Primitive& part : parts) {
-    builder.primitive(static_cast<uint32_t>(result.parts.size()));
-    part.local_to_world = to_world;
-    part.id = extrusion.figures.figures.front().id;
-    result.parts.push_back({std::move(part), extrusion.frame, *result.box});
-  }
-  result.solid = builder.finish();
+  LoweredSubtree result = in_place_of(extrusion, std::move(parts), solid->box,
+                                      compose(extrusion.to_world(), leaning(data.arguments)));
+  result.is_faceted = extrusion.is_operand && !data.is_faceted;
   return result;
 }
 

@@ -41,20 +41,6 @@ double bevel_step_of(const RoofNode& roof, const Rectangle& bounds) {
   return kTurn / csgcore::fragment_count(std::min(size.x, size.y) / 2, roof.facets);
 }
 
-LoweredSubtree part_of_roof(csgcore::Primitive solid, const csgcore::Box& box,
-                            const Extrusion& extrusion) {
-  LoweredSubtree result;
-  const csgcore::Affine& to_world = extrusion.to_world();
-  result.box = mapped(to_world, box);
-  solid.local_to_world = compose(to_world, solid.local_to_world);
-  solid.id = extrusion.figures.figures.front().id;
-  result.parts.push_back({std::move(solid), extrusion.frame, *result.box});
-  csgcore::CsgTreeBuilder builder;
-  builder.primitive(0);
-  result.solid = builder.finish();
-  return result;
-}
-
 /// Returns the cone over a disc.
 LoweredSubtree roofed_disc(const Disc& disc, const Extrusion& extrusion) {
   const csgcore::Vec3 center(disc.center, 0);
@@ -63,7 +49,8 @@ LoweredSubtree roofed_disc(const Disc& disc, const Extrusion& extrusion) {
   box.merge(center + csgcore::Vec3(disc.radius));
   csgcore::Affine place;
   place.translation = center;
-  return part_of_roof(csgcore::make_frustum(0, disc.radius, disc.radius, 0, place), box, extrusion);
+  return in_place_of(extrusion, {csgcore::make_frustum(0, disc.radius, disc.radius, 0, place)}, box,
+                     extrusion.to_world());
 }
 
 LoweredSubtree roofed(const Extrusion& extrusion) {
@@ -91,7 +78,7 @@ LoweredSubtree roofed(const Extrusion& extrusion) {
   if (roof->ends.empty()) return {};
   csgcore::Box box;
   for (const csgcore::Vec3& point : roof->points) box.merge(point);
-  LoweredSubtree result = part_of_roof(roof_mesh(*roof), box, extrusion);
+  LoweredSubtree result = in_place_of(extrusion, {roof_mesh(*roof)}, box, extrusion.to_world());
   const bool is_round = roof->bevel_count > 0 || !std::ranges::all_of(figures, is_polygonal);
   result.is_faceted = extrusion.is_operand && is_round && !data.is_faceted;
   return result;

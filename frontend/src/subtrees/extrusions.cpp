@@ -59,4 +59,19 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
   return result;
 }
 
+LoweredSubtree in_place_of(const Extrusion& extrusion, std::vector<Primitive> solids,
+                           const Box& box, const Affine& to_world) {
+  LoweredSubtree result;
+  result.box = mapped(to_world, box);
+  csgcore::CsgTreeBuilder builder;
+  for (Primitive& solid : solids) {
+    builder.primitive(static_cast<uint32_t>(result.parts.size()));
+    solid.local_to_world = compose(to_world, solid.local_to_world);
+    solid.id = extrusion.figures.figures.front().id;
+    result.parts.push_back({std::move(solid), extrusion.frame, *result.box});
+  }
+  result.solid = builder.finish();
+  return result;
+}
+
 }  // namespace frontend

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "heal/frames.hpp"
 #include "solids/figure_solids.hpp"
@@ -35,5 +36,10 @@ struct Extrusion {
 LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_plate,
                        const csgcore::Affine& root_to_world, const FrameTree& frames,
                        FigureSolids& solids);
+
+/// Returns the union of solids that the extrusion has become, in coordinates of `to_world`, as is
+/// the box around them.
+LoweredSubtree in_place_of(const Extrusion& extrusion, std::vector<csgcore::Primitive> solids,
+                           const csgcore::Box& box, const csgcore::Affine& to_world);
 
 }  // namespace frontend
