@@ -86,8 +86,8 @@ HWY_INLINE LaneMask find_paths(const FrameRays& frame, const RayPacket& packet, 
       paths.near_height[lane] = static_cast<float>(path.height);
       paths.near_run[lane] = static_cast<float>(path.run);
       const hn::CappedTag<double, 1> one;
-      paths.near_inverse[lane] = static_cast<float>(
-          hn::GetLane(bounded_inverse(one, hn::Set(one, path.rise))));
+      paths.near_inverse[lane] =
+          static_cast<float>(hn::GetLane(bounded_inverse(one, hn::Set(one, path.rise))));
       paths.near_first[lane] = static_cast<float>(path.first) - Profile::kBoxMargin;
       paths.near_last[lane] = static_cast<float>(path.last) + Profile::kBoxMargin;
     }
