@@ -315,8 +315,8 @@ std::size_t number_from(const char* name, std::size_t otherwise) {
 }
 
 TEST(Edits, ShowWhatAFreshProcessShows) {
-  const std::size_t wanted =
-      number_from("SCADRAY_TEST_EDITS", test_support::full_run() ? 10000 : 200);
+  const std::size_t wanted = number_from(
+      "SCADRAY_TEST_EDITS", test_support::full_run() ? 10000u : test_support::sample_size(200));
   auto seed = static_cast<uint32_t>(number_from("SCADRAY_TEST_SEED", 0));
   for (std::size_t edits = 0; edits < wanted; ++seed) {
     Edits design(seed);
