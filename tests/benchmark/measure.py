@@ -38,6 +38,7 @@ def output_of(*command):
     return result.output if result.status == 0 else ""
 
 
+QUICK_PEER_LIMIT_S = 3
 FORMAT = 3  # of the results: the report does not understand sections of another one
 
 
@@ -93,7 +94,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help="a few of each kind, to see that all works")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    settings = Settings(options.scadray, options.judge, options.folder.resolve(), options.peer_limit, options.most,
+    peer_limit_s = min(options.peer_limit, QUICK_PEER_LIMIT_S) if options.quick else options.peer_limit
+    settings = Settings(options.scadray, options.judge, options.folder.resolve(), peer_limit_s, options.most,
                         options.quick, options.threads)
     now = machine(settings)
     kept = sections_kept(options.output, now) if options.section else {}

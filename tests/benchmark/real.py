@@ -186,7 +186,7 @@ def measure(settings):
         name = display.name if shutil.which("openscad") else ""
         if not name:
             left_out.add("OpenSCAD 2021.01", "openscad and Xvfb are not both there")
-        for path, kind in settings.some(REAL, quick=3):
+        for path, kind in settings.some(REAL):
             if not path.exists():
                 left_out.add(path.stem, f"{path} is not there")
                 continue
