@@ -18,10 +18,10 @@ language::TextMetrics metrics_of(const MeasuredText& measured, const language::T
   const Vec2 offset = measured.offset(align_of(text.halign, kHorizontalWords),
                                       align_of(text.valign, kVerticalWords));
   language::TextMetrics result;
-  result.has_ink = !measured.box().empty();
-  const Rectangle box = result.has_ink ? measured.box() : Rectangle{Vec2(0.0), Vec2(0.0)};
-  result.position = scaled(text.size, result.has_ink ? box.min + offset : box.min);
-  result.size = scaled(text.size, box.max - box.min);
+  const Rectangle& box = measured.box();
+  result.has_ink = !box.empty();
+  result.position = scaled(text.size, result.has_ink ? box.min + offset : Vec2(0.0));
+  result.size = scaled(text.size, result.has_ink ? box.max - box.min : Vec2(0.0));
   result.ascent = measured.ascent() * text.size;
   result.descent = measured.descent() * text.size;
   result.offset = scaled(text.size, offset);

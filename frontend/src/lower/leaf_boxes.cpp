@@ -62,13 +62,14 @@ class BoxFinder {
       boxes.seen.push_back(known ? *known
                                  : box_of_positive_leaves(leaves_.solid(leaf), boxes.seen));
     }
-    std::vector<bool> is_looked_at(leaves_.size());
-    if (measures_leaves && leaves_.has_compound()) is_looked_at = looked_at(trees, boxes.seen);
+    std::vector<bool> matters(leaves_.size(), decides);
+    if (measures_leaves && !decides && leaves_.has_compound()) {
+      matters = looked_at(trees, boxes.seen);
+    }
     for (uint32_t leaf = first; leaf < leaves_.size(); ++leaf) {
       const bool is_known = leaves_.box(leaf).has_value();
       const bool is_plate = is_of_plate_[leaves_.first_primitive(leaf)];
-      const bool is_measured =
-          !is_plate && (decides || (measures_leaves && !is_known && is_looked_at[leaf]));
+      const bool is_measured = !is_plate && matters[leaf] && (decides || !is_known);
       const Box rest = is_measured ? rest_of(leaf) : Box();
       Box& seen_box = boxes.seen[leaf];
       if (is_measured && !is_known) seen_box = combined_box(rest, frame_of(leaf), seen_box);

@@ -72,8 +72,9 @@ void part_touching_corners(std::vector<OutlineEdge>& edges, const std::vector<Ve
   }
 }
 
-void jitter_corners(const std::vector<OutlineEdge>& edges, double jitter,
-                    std::vector<Vec2>& places) {
+/// Returns the shortest edge of each corner; infinity: it has none.
+std::vector<double> shortest_edges(const std::vector<OutlineEdge>& edges,
+                                   const std::vector<Vec2>& places) {
   std::vector<double> shortest(places.size(), std::numeric_limits<double>::infinity());
   for (const OutlineEdge& edge : edges) {
     const double length = glm::length(places[edge.end] - places[edge.start]);
@@ -81,6 +82,10 @@ void jitter_corners(const std::vector<OutlineEdge>& edges, double jitter,
       shortest[corner] = std::min(shortest[corner], length);
     }
   }
+  return shortest;
+}
+
+void jitter_corners(const std::vector<double>& shortest, double jitter, std::vector<Vec2>& places) {
   std::minstd_rand random;
   const auto offset = [&] {
     return 2.0 * static_cast<double>(random() - random.min()) / (random.max() - random.min()) - 1;
@@ -130,7 +135,8 @@ RoofEdges roof_edges(std::span<const Polygon> polygons, double bevel_step, doubl
   }
   part_touching_corners(outline, result.corners);
   std::vector<Vec2> places = result.corners;
-  if (jitter > 0) jitter_corners(outline, jitter, places);
+  result.shortest = shortest_edges(outline, places);
+  if (jitter > 0) jitter_corners(result.shortest, jitter, places);
 
   std::vector<RoofEdge>& edges = result.edges;
   for (const OutlineEdge& edge : outline) {

@@ -37,7 +37,8 @@ bool is_reflex(const Vec2& direction_before, const Vec2& direction_after);
 
 struct RoofEdges {
   std::vector<RoofEdge> edges;
-  std::vector<Vec2> corners;  // by their numbers; no two are at one place
+  std::vector<Vec2> corners;     // by their numbers; no two are at one place
+  std::vector<double> shortest;  // by corner: its shortest edge before it is jittered
 };
 
 /// Returns the edges of the region that polygons bound: those around it run counterclockwise, those

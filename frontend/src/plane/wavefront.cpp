@@ -22,16 +22,9 @@ constexpr double kSameDirection = 1e-9;
 
 Wavefront::Wavefront(const RoofEdges& edges)
     : edges_(edges.edges),
+      shortest_(edges.shortest),
       search_(edges_),
-      shortest_(edges.corners.size(), std::numeric_limits<double>::infinity()),
       parts_(edges_.size(), kNone) {
-  for (const RoofEdge& edge : edges_) {
-    if (edge.start_corner == edge.end_corner) continue;
-    const double length = glm::length(edge.end - edge.start);
-    for (const uint32_t corner : {edge.start_corner, edge.end_corner}) {
-      shortest_[corner] = std::min(shortest_[corner], length);
-    }
-  }
   for (const Vec2& place : edges.corners) add_node(place, 0);
 }
 

@@ -94,12 +94,12 @@ class Wavefront {
   void go_on(uint32_t corner, double time);
 
   const std::vector<RoofEdge>& edges_;
+  const std::vector<double>& shortest_;  // by corner of the outline: its shortest edge
   EdgeSearch search_;
   std::vector<SkeletonNode> nodes_;
   std::vector<RoofArc> arcs_;
   std::vector<WaveCorner> corners_;
-  std::vector<double> shortest_;  // by corner of the outline: its shortest edge
-  std::vector<uint32_t> parts_;   // by edge: the corner that begins one of its parts
+  std::vector<uint32_t> parts_;  // by edge: the corner that begins one of its parts
   Events collapses_, splits_;
   size_t alive_ = 0;
 };

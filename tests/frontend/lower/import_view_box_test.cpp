@@ -66,10 +66,13 @@ TEST(ImporterViewBox, CountsPositiveLeavesAndMarkedParts) {
   const std::string rest =
       "render() { difference() { cube([9, 9, 9]);"
       "multmatrix([[1,0,0,3],[0,1,0,-1],[0,0,1,-1]]) { cube([20, 20, 20]); } } }";
-  EXPECT_NEAR(width(rest), 3, 1e-9);
+  // Of a box that is found by dividing one that is 9 wide.
+  constexpr double kRounding = 1e-9;
+  EXPECT_NEAR(width(rest), 3, kRounding);
   EXPECT_DOUBLE_EQ(width("difference() {" + small + rest + "}"), 1);
-  EXPECT_NEAR(width("difference() {" + small + "#" + rest + "}"), 3, 1e-9);
-  EXPECT_NEAR(width("difference() {" + small + "difference() {" + small + rest + "} }"), 3, 1e-9);
+  EXPECT_NEAR(width("difference() {" + small + "#" + rest + "}"), 3, kRounding);
+  EXPECT_NEAR(width("difference() {" + small + "difference() {" + small + rest + "} }"), 3,
+              kRounding);
 }
 
 }  // namespace

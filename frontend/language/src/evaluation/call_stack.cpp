@@ -178,8 +178,7 @@ std::string CallStack::call_text(const Frame& frame) {
 
 void CallStack::set_unit(uint32_t unit) {
   unit_ = unit;
-  const uint32_t shown_from = program_.dialect.shows_paths_from_main_file ? 0 : unit;
-  environment_.messages.set_unit_folder(program_.units[shown_from].folder);
+  environment_.messages.set_unit_folder(program_.shown_folder(unit));
   environment_.files.set_unit_folder(program_.units[unit].folder);
 }
 

@@ -48,6 +48,11 @@ struct Program {
     return file < kept_files.size() ? kept_files[file].get() : nullptr;
   }
 
+  /// Returns the folder from which messages of a unit show paths.
+  const std::string& shown_folder(uint32_t unit) const {
+    return units[dialect.shows_paths_from_main_file ? 0 : unit].folder;
+  }
+
   const Dialect& dialect;
   std::shared_ptr<KeptSources> kept;
   NameTable& names;

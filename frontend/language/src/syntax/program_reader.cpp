@@ -134,8 +134,7 @@ void ProgramReader::parse_used() {
 }
 
 void ProgramReader::set_main_unit(uint32_t unit) {
-  const uint32_t shown_from = program_.dialect.shows_paths_from_main_file ? 0 : unit;
-  messages_.set_main_file(program_.units[unit].file, program_.units[shown_from].folder);
+  messages_.set_main_file(program_.units[unit].file, program_.shown_folder(unit));
 }
 
 bool ProgramReader::parse(uint32_t unit_number) {
