@@ -65,7 +65,6 @@ class FontStock {
   };
 
   explicit FontStock(const FontLibraries& libraries);
-  ~FontStock();
 
   void load_list();
   FoundFont match(const std::string& pattern);
