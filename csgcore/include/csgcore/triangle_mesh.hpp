@@ -86,6 +86,10 @@ class TriangleMesh {
   /// The BVH, whose root comes first. Empty if there are no triangles.
   std::span<const Node> nodes() const { return nodes_; }
 
+  /// Visits the triangles of the leaves whose boxes meet a canonical one, by their numbers, until a
+  /// visit returns true. Returns whether one has.
+  template <typename Visit>
+  bool any_near(const Box& box, const Visit& visit) const;
   /// Returns the winding number at a canonical point. On the surface it may be that of either side.
   int winding(const Vec3& point_canonical) const;
   /// Returns the vertex furthest along a direction; both are canonical.
@@ -105,6 +109,28 @@ class TriangleMesh {
   std::vector<Plane> planes_;
   std::vector<Node> nodes_;
 };
+
+template <typename Visit>
+bool TriangleMesh::any_near(const Box& box, const Visit& visit) const {
+  std::vector<uint32_t> open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const Node& node = nodes_[open.back()];
+    open.pop_back();
+    if (box.min.x > node.max[0] || box.min.y > node.max[1] || box.min.z > node.max[2] ||
+        box.max.x < node.min[0] || box.max.y < node.min[1] || box.max.z < node.min[2]) {
+      continue;
+    }
+    if (node.count == 0) {
+      open.insert(open.end(), {node.first, node.first + 1});
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (visit(i)) return true;
+    }
+  }
+  return false;
+}
 
 /// Returns whether both are null, or both have the same vertices, triangles and colours.
 bool same_mesh(const TriangleMesh* a, const TriangleMesh* b);

@@ -20,14 +20,6 @@ Box box_around(const CanonicalCell& cell) {
   return {cell.center - half, cell.center + half};
 }
 
-bool meets(const TriangleMesh::Node& node, const Box& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<size_t>(axis);
-    if (node.min[i] > box.max[axis] || node.max[i] < box.min[axis]) return false;
-  }
-  return true;
-}
-
 /// Returns whether the triangle may meet the cell: neither its plane nor a face of the cell
 /// separates the two. `to_cell` maps canonical offsets from the cell's centre to shares of its half
 /// edges.
@@ -94,7 +86,6 @@ class MeshKind final : public PrimitiveKind {
  private:
   /// Returns whether any triangle may meet the cell.
   static bool may_cross(const TriangleMesh& mesh, const CanonicalCell& cell) {
-    const Box box = box_around(cell);
     const double flatness = std::abs(glm::determinant(cell.half));
     const bool is_flat = !(flatness > 0);
     const Mat3 to_cell = is_flat ? Mat3(0.0) : glm::inverse(cell.half);
@@ -103,21 +94,9 @@ class MeshKind final : public PrimitiveKind {
     for (int i = 0; i < 3; ++i) {
       slack = std::max(slack, cell.slack * glm::length(glm::transpose(to_cell)[i]) * 2);
     }
-    std::vector<uint32_t> open{0};
-    while (!open.empty()) {
-      const TriangleMesh::Node& node = mesh.nodes()[open.back()];
-      open.pop_back();
-      if (!meets(node, box)) continue;
-      if (node.count == 0) {
-        open.push_back(node.first);
-        open.push_back(node.first + 1);
-        continue;
-      }
-      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-        if (is_flat || may_meet(mesh, i, cell, to_cell, slack)) return true;
-      }
-    }
-    return false;
+    return mesh.any_near(box_around(cell), [&](uint32_t triangle) {
+      return is_flat || may_meet(mesh, triangle, cell, to_cell, slack);
+    });
   }
 };
 

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -37,16 +39,17 @@ void for_each_index(size_t count, const Visit& visit) {
                     });
 }
 
-/// A box in float, which holds what it is merged with.
-struct FloatBox {
-  std::array<float, 3> min, max;
+/// A box in float, which holds what it is merged with. The fourth coordinates are not its own: with
+/// them, boxes are merged by instructions of four lanes.
+struct alignas(16) FloatBox {
+  std::array<float, 4> min, max;
 
   static FloatBox empty() {
     constexpr float kNone = std::numeric_limits<float>::infinity();
-    return {{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}};
+    return {{kNone, kNone, kNone, kNone}, {-kNone, -kNone, -kNone, -kNone}};
   }
   void merge(const FloatBox& other) {
-    for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t axis = 0; axis < 4; ++axis) {
       min[axis] = std::min(min[axis], other.min[axis]);
       max[axis] = std::max(max[axis], other.max[axis]);
     }
@@ -58,36 +61,25 @@ struct FloatBox {
   }
 };
 
-/// The box of a triangle, larger than need be by kBoxMargin, which covers the rounding to float.
-FloatBox box_of(const Triangle& triangle, std::span<const Vec3> vertices) {
-  FloatBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = vertices[triangle[0]][axis], b = vertices[triangle[1]][axis],
-                 c = vertices[triangle[2]][axis];
-    const auto i = static_cast<size_t>(axis);
-    box.min[i] = static_cast<float>(std::min({a, b, c})) - TriangleMesh::kBoxMargin;
-    box.max[i] = static_cast<float>(std::max({a, b, c})) + TriangleMesh::kBoxMargin;
-  }
-  return box;
-}
-
 /// Builds a BVH top down, by the surface area heuristic over equal bins of the triangles' middles
 /// along the longest side (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
 /// 2007).
 class MeshBvhBuilder {
  public:
   MeshBvhBuilder(std::span<const Triangle> triangles, std::span<const Vec3> vertices)
-      : items_(triangles.size()), nodes_(2 * triangles.size()) {
-    for_each_index(triangles.size(), [&](size_t i) {
-      items_[i] = {box_of(triangles[i], vertices), static_cast<uint32_t>(i)};
+      : count_(static_cast<uint32_t>(triangles.size())),
+        items_(std::make_unique_for_overwrite<Item[]>(count_)),
+        nodes_(std::make_unique_for_overwrite<TriangleMesh::Node[]>(2 * size_t{count_})) {
+    for_each_index(count_, [&](size_t i) {
+      items_[i] = item_of(triangles[i], static_cast<uint32_t>(i), vertices);
     });
-    build(0, 0, static_cast<uint32_t>(items_.size()));
+    build(0, 0, count_, bounds_of(0, count_));
   }
 
   /// Returns the triangles in the order of the leaves.
   std::vector<uint32_t> order() const {
-    std::vector<uint32_t> result(items_.size());
-    for (size_t i = 0; i < items_.size(); ++i) result[i] = items_[i].triangle;
+    std::vector<uint32_t> result(count_);
+    for (uint32_t i = 0; i < count_; ++i) result[i] = items_[i].triangle();
     return result;
   }
 
@@ -108,36 +100,66 @@ class MeshBvhBuilder {
   }
 
  private:
+  /// The box of a triangle, larger than need be by kBoxMargin, which covers the rounding to float.
+  /// The fourth coordinate of `min` holds the bits of the triangle's number.
   struct Item {
     FloatBox box;
-    uint32_t triangle;
+
+    uint32_t triangle() const { return std::bit_cast<uint32_t>(box.min[3]); }
     /// Twice the middle of the box.
     float middle(size_t axis) const { return box.min[axis] + box.max[axis]; }
   };
-  static constexpr size_t kBins = 16;
-  struct Bin {
-    FloatBox box = FloatBox::empty();
-    uint32_t count = 0;
-  };
-
-  void build(uint32_t node, uint32_t begin, uint32_t end) {
-    FloatBox box = FloatBox::empty(), middles = FloatBox::empty();
-    for (uint32_t i = begin; i < end; ++i) {
-      box.merge(items_[i].box);
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const float middle = items_[i].middle(axis);
-        middles.min[axis] = std::min(middles.min[axis], middle);
-        middles.max[axis] = std::max(middles.max[axis], middle);
-      }
+  static Item item_of(const Triangle& triangle, uint32_t number, std::span<const Vec3> vertices) {
+    Item item;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<int>(axis);
+      const double a = vertices[triangle[0]][i], b = vertices[triangle[1]][i],
+                   c = vertices[triangle[2]][i];
+      item.box.min[axis] = static_cast<float>(std::min({a, b, c})) - TriangleMesh::kBoxMargin;
+      item.box.max[axis] = static_cast<float>(std::max({a, b, c})) + TriangleMesh::kBoxMargin;
     }
-    nodes_[node] = {box.min, box.max, begin, end - begin};
+    item.box.min[3] = std::bit_cast<float>(number);
+    item.box.max[3] = 0;
+    return item;
+  }
+
+  /// What some items lie in.
+  struct Bounds {
+    FloatBox boxes = FloatBox::empty(), middles = FloatBox::empty();
+    uint32_t count = 0;
+
+    void add(const Item& item) {
+      FloatBox middle;
+      for (size_t axis = 0; axis < 4; ++axis) {
+        middle.min[axis] = middle.max[axis] = item.middle(axis);
+      }
+      boxes.merge(item.box);
+      middles.merge(middle);
+      ++count;
+    }
+    void merge(const Bounds& other) {
+      boxes.merge(other.boxes);
+      middles.merge(other.middles);
+      count += other.count;
+    }
+  };
+  Bounds bounds_of(uint32_t begin, uint32_t end) const {
+    Bounds bounds;
+    for (uint32_t i = begin; i < end; ++i) bounds.add(items_[i]);
+    return bounds;
+  }
+
+  void build(uint32_t node, uint32_t begin, uint32_t end, const Bounds& bounds) {
+    const auto& [min, max] = bounds.boxes;
+    nodes_[node] = {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}, begin, end - begin};
     if (end - begin <= TriangleMesh::kLeafTriangles) return;
-    const uint32_t split = divide(middles, begin, end);
+    const Division division = divide(bounds.middles, begin, end);
+    const uint32_t split = begin + division.below.count;
     const uint32_t children = used_.fetch_add(2, std::memory_order_relaxed);
     nodes_[node].first = children;
     nodes_[node].count = 0;
-    const auto below = [&] { build(children, begin, split); };
-    const auto above = [&] { build(children + 1, split, end); };
+    const auto below = [&] { build(children, begin, split, division.below); };
+    const auto above = [&] { build(children + 1, split, end, division.above); };
     if (end - begin > kTrianglesAtOnce) {
       const auto stoppable = [stop = stop_of_work](const auto& half) {
         return [&half, stop] {
@@ -153,8 +175,13 @@ class MeshBvhBuilder {
     }
   }
 
-  /// Returns where the second half begins; both have triangles.
-  uint32_t divide(const FloatBox& middles, uint32_t begin, uint32_t end) {
+  static constexpr size_t kBins = 16;
+  struct Division {
+    Bounds below, above;
+  };
+
+  /// Divides items into two parts that both have some.
+  Division divide(const FloatBox& middles, uint32_t begin, uint32_t end) {
     size_t axis = 0;
     float length = -1;
     for (size_t i = 0; i < 3; ++i) {
@@ -163,47 +190,55 @@ class MeshBvhBuilder {
         axis = i;
       }
     }
-    const uint32_t half = begin + (end - begin) / 2;
-    if (!(length > 0)) return half;
-    const float scale = static_cast<float>(kBins) / length;
-    const auto bin_of = [&](const Item& item) {
-      const auto bin = static_cast<size_t>((item.middle(axis) - middles.min[axis]) * scale);
-      return std::min(bin, kBins - 1);
+    const auto in_halves = [&]() -> Division {
+      const uint32_t half = begin + (end - begin) / 2;
+      return {bounds_of(begin, half), bounds_of(half, end)};
     };
-    std::array<Bin, kBins> bins;
-    for (uint32_t i = begin; i < end; ++i) {
-      Bin& bin = bins[bin_of(items_[i])];
-      bin.box.merge(items_[i].box);
-      ++bin.count;
-    }
+    if (!(length > 0)) return in_halves();
+    // More bins than items tell little more.
+    const size_t bin_count = std::min<size_t>(kBins, end - begin);
+    const float scale = static_cast<float>(bin_count) / length;
+    const auto bin_of = [&](const Item& item) {
+      const auto bin = static_cast<int32_t>((item.middle(axis) - middles.min[axis]) * scale);
+      return std::min(static_cast<size_t>(bin), bin_count - 1);
+    };
+    std::array<Bounds, kBins> bins;
+    for (uint32_t i = begin; i < end; ++i) bins[bin_of(items_[i])].add(items_[i]);
     std::array<float, kBins> cost_above{};
-    FloatBox box = FloatBox::empty();
-    uint32_t count = 0;
-    for (size_t bin = kBins; bin-- > 1;) {
-      box.merge(bins[bin].box);
-      count += bins[bin].count;
-      cost_above[bin] = box.area() * static_cast<float>(count);
+    Bounds above;
+    for (size_t bin = bin_count; bin-- > 1;) {
+      above.boxes.merge(bins[bin].boxes);
+      above.count += bins[bin].count;
+      cost_above[bin] = above.boxes.area() * static_cast<float>(above.count);
     }
-    box = FloatBox::empty();
-    count = 0;
+    Bounds below;
     float least = std::numeric_limits<float>::infinity();
     size_t best = 0;
-    for (size_t bin = 1; bin < kBins; ++bin) {
-      box.merge(bins[bin - 1].box);
-      count += bins[bin - 1].count;
-      if (count == 0 || count == end - begin) continue;
-      const float cost = box.area() * static_cast<float>(count) + cost_above[bin];
+    for (size_t bin = 1; bin < bin_count; ++bin) {
+      below.boxes.merge(bins[bin - 1].boxes);
+      below.count += bins[bin - 1].count;
+      if (below.count == 0 || below.count == end - begin) continue;
+      const float cost = below.boxes.area() * static_cast<float>(below.count) + cost_above[bin];
       if (cost < least) least = cost, best = bin;
     }
-    if (best == 0) return half;
-    const auto at = [&](uint32_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto split =
-        std::partition(at(begin), at(end), [&](const Item& item) { return bin_of(item) < best; });
-    return static_cast<uint32_t>(split - items_.begin());
+    if (best == 0) return in_halves();
+    // Without a branch: which way an item goes, no processor can foresee.
+    for (uint32_t i = begin, split = begin; i < end; ++i) {
+      const Item item = items_[i];
+      items_[i] = items_[split];
+      items_[split] = item;
+      split += bin_of(item) < best ? 1 : 0;
+    }
+    Division division;
+    for (size_t bin = 0; bin < bin_count; ++bin) {
+      (bin < best ? division.below : division.above).merge(bins[bin]);
+    }
+    return division;
   }
 
-  std::vector<Item> items_;
-  std::vector<TriangleMesh::Node> nodes_;
+  uint32_t count_;
+  std::unique_ptr<Item[]> items_;
+  std::unique_ptr<TriangleMesh::Node[]> nodes_;
   std::atomic<uint32_t> used_ = 1;
 };
 
@@ -347,38 +382,24 @@ void TriangleMesh::find_planes() {
 
 int TriangleMesh::winding(const Vec3& point) const {
   // The crossings of a ray along the x axis.
-  if (nodes_.empty()) return 0;
   int winding = 0;
-  std::vector<uint32_t> open{0};
-  while (!open.empty()) {
-    const TriangleMesh::Node& node = nodes_[open.back()];
-    open.pop_back();
-    if (point.x > node.max[0] || point.y < node.min[1] || point.y > node.max[1] ||
-        point.z < node.min[2] || point.z > node.max[2]) {
-      continue;
-    }
-    if (node.count == 0) {
-      open.push_back(node.first);
-      open.push_back(node.first + 1);
-      continue;
-    }
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Vec3 corners[] = {canonical_vertices_[triangles_[i][0]],
-                              canonical_vertices_[triangles_[i][1]],
-                              canonical_vertices_[triangles_[i][2]]};
-      const auto seen = [&](int corner) {
-        return PlanarPoint{corners[corner].y - point.y, corners[corner].z - point.z};
-      };
-      const int turn = winding_of(seen(0), seen(1), seen(2));
-      if (turn == 0) continue;
-      const auto [nearest, furthest] =
-          depth_range({seen(0), seen(1), seen(2)}, {corners[0].x, corners[1].x, corners[2].x});
-      const Plane& plane = planes_[i];
-      const double gap = (plane.offset - glm::dot(plane.normal, point)) / plane.normal.x;
-      const double x = std::isnan(gap) ? nearest : std::clamp(point.x + gap, nearest, furthest);
-      if (x > point.x) winding += turn;
-    }
-  }
+  any_near({point, {kInfinity, point.y, point.z}}, [&](uint32_t i) {
+    const Vec3 corners[] = {canonical_vertices_[triangles_[i][0]],
+                            canonical_vertices_[triangles_[i][1]],
+                            canonical_vertices_[triangles_[i][2]]};
+    const auto seen = [&](int corner) {
+      return PlanarPoint{corners[corner].y - point.y, corners[corner].z - point.z};
+    };
+    const int turn = winding_of(seen(0), seen(1), seen(2));
+    if (turn == 0) return false;
+    const auto [nearest, furthest] =
+        depth_range({seen(0), seen(1), seen(2)}, {corners[0].x, corners[1].x, corners[2].x});
+    const Plane& plane = planes_[i];
+    const double gap = (plane.offset - glm::dot(plane.normal, point)) / plane.normal.x;
+    const double x = std::isnan(gap) ? nearest : std::clamp(point.x + gap, nearest, furthest);
+    if (x > point.x) winding += turn;
+    return false;
+  });
   return winding;
 }
 
@@ -423,31 +444,16 @@ std::optional<Color> TriangleMesh::color_at(const Vec3& point) const {
   if (colors_.empty()) return std::nullopt;
   double nearest2 = kInfinity;
   uint32_t face = 0;
-  std::vector<uint32_t> open{0};
-  while (!open.empty()) {
-    const TriangleMesh::Node& node = nodes_[open.back()];
-    open.pop_back();
-    bool is_within = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<size_t>(axis);
-      is_within = is_within && point[axis] >= node.min[i] && point[axis] <= node.max[i];
+  any_near({point, point}, [&](uint32_t i) {
+    const double distance2 =
+        distance2_to(point, canonical_vertices_[triangles_[i][0]],
+                     canonical_vertices_[triangles_[i][1]], canonical_vertices_[triangles_[i][2]]);
+    if (distance2 < nearest2 || (distance2 == nearest2 && i < face)) {
+      nearest2 = distance2;
+      face = i;
     }
-    if (!is_within) continue;
-    if (node.count == 0) {
-      open.push_back(node.first);
-      open.push_back(node.first + 1);
-      continue;
-    }
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const double distance2 = distance2_to(point, canonical_vertices_[triangles_[i][0]],
-                                            canonical_vertices_[triangles_[i][1]],
-                                            canonical_vertices_[triangles_[i][2]]);
-      if (distance2 < nearest2 || (distance2 == nearest2 && i < face)) {
-        nearest2 = distance2;
-        face = i;
-      }
-    }
-  }
+    return false;
+  });
   return nearest2 < kInfinity ? colors_[face] : std::nullopt;
 }
 
