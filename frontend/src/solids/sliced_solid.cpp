@@ -100,8 +100,8 @@ class SlicedMesh {
     plan_.reserve(count * (slices_ + 1));
     for (uint32_t layer = 0; layer <= slices_; ++layer) {
       csgcore::stop_point();
-      const double share = static_cast<double>(layer) / slices_;
-      for (const Vec2& point : points_) plan_.push_back(layers_.point_at(share, point));
+      const TwistedLayer at = layers_.at(static_cast<double>(layer) / slices_);
+      for (const Vec2& point : points_) plan_.push_back(at.image(point));
     }
     for (uint32_t layer = 0; layer <= slices_; ++layer) {
       const double z =
@@ -209,8 +209,9 @@ csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePol
   for (int layer = 0; layer <= slices; ++layer) {
     const double share = static_cast<double>(layer) / slices;
     const double z = layers.z_min + (layers.z_max - layers.z_min) * share;
+    const TwistedLayer at = layers.at(share);
     for (const Polygon& polygon : outline) {
-      for (const Vec2& point : polygon) box.merge(Vec3(layers.point_at(share, point), z));
+      for (const Vec2& point : polygon) box.merge(Vec3(at.image(point), z));
     }
   }
   return box;
@@ -293,15 +294,15 @@ std::vector<int> segments_of(std::span<const double> length, double wanted) {
 /// The length of each edge's longest image in a layer.
 std::vector<double> longest_images(const TwistedLayers& layers, int slices,
                                    const Polygon& polygon) {
-  std::vector<double> lengths;
-  visit_edges(polygon, [&](const Vec2& a, const Vec2& b) {
-    double longest = glm::length(b - a);
-    for (int layer = 1; layer <= slices; ++layer) {
-      const double share = static_cast<double>(layer) / slices;
-      longest = std::max(longest, glm::length(layers.point_at(share, b - a)));
+  std::vector<Vec2> edges;
+  visit_edges(polygon, [&](const Vec2& a, const Vec2& b) { edges.push_back(b - a); });
+  std::vector<double> lengths(edges.size());
+  for (int layer = 0; layer <= slices; ++layer) {
+    const TwistedLayer at = layers.at(static_cast<double>(layer) / slices);
+    for (size_t i = 0; i < edges.size(); ++i) {
+      lengths[i] = std::max(lengths[i], glm::length(at.image(edges[i])));
     }
-    lengths.push_back(longest);
-  });
+  }
   return lengths;
 }
 
@@ -317,12 +318,9 @@ double TwistedLayers::turn() const { return std::abs(twist) * std::numbers::pi /
 
 double TwistedLayers::largest_scale() const { return std::max({1.0, top_scale.x, top_scale.y}); }
 
-Vec2 TwistedLayers::point_at(double share, const Vec2& point) const {
+TwistedLayer TwistedLayers::at(double share) const {
   const double angle = -share * twist;
-  const Vec2 turned(
-      language::cosine_of_degrees(angle) * point.x - language::sine_of_degrees(angle) * point.y,
-      language::sine_of_degrees(angle) * point.x + language::cosine_of_degrees(angle) * point.y);
-  return scale_at(share) * turned;
+  return {language::cosine_of_degrees(angle), language::sine_of_degrees(angle), scale_at(share)};
 }
 
 double reach_of(const SimplePolygons& outline) {

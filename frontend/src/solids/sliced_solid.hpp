@@ -12,6 +12,16 @@
 
 namespace frontend {
 
+/// Where a layer of an extrusion has the points of the figure.
+struct TwistedLayer {
+  double cosine, sine;
+  Vec2 scale;
+
+  Vec2 image(const Vec2& point) const {
+    return scale * Vec2(cosine * point.x - sine * point.y, sine * point.x + cosine * point.y);
+  }
+};
+
 /// Layers of a figure from z_min to z_max. At the share t of the way up, the figure is turned by
 /// −t·twist about the origin, and then scaled by 1 − t·(1 − top_scale), by coordinate.
 struct TwistedLayers {
@@ -25,8 +35,7 @@ struct TwistedLayers {
   double largest_scale() const;  // ≥ 1
   bool is_twisted() const { return twist != 0 || top_scale.x != top_scale.y; }
   Vec2 scale_at(double share) const { return 1.0 - share * (1.0 - top_scale); }
-  /// Returns the image of a point of the figure.
-  Vec2 point_at(double share, const Vec2& point) const;
+  TwistedLayer at(double share) const;
 };
 
 /// Returns OpenSCAD's number of slices, where the design gives none. With r the largest distance of

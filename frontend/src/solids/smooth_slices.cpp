@@ -64,11 +64,12 @@ double slices_within(const TwistedLayers& layers, const SimplePolygons& outline,
 /// 0.
 size_t offset_of(const TwistedLayers& layers, int slices, const Polygon& polygon) {
   const TwistedLayers turning{0, 1, layers.twist / slices};
+  const TwistedLayer top = turning.at(1);
   const size_t count = polygon.size();
   std::vector<Vec2> below, above;
   visit_edges(polygon, [&](const Vec2& a, const Vec2& b) {
     below.push_back(b - a);
-    above.push_back(turning.point_at(1, b - a));
+    above.push_back(top.image(b - a));
   });
   const auto bend = [&](size_t offset) {
     double worst = 0;

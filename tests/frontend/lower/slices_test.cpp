@@ -109,8 +109,8 @@ double error_of(const TwistedLayers& layers, const Slicing& slicing) {
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Vec2& p = polygon[i];
       const Vec2& q = polygon[(i + 1) % polygon.size()];
-      const Vec2 chord = (layers.point_at(from, p) + layers.point_at(to, q)) / 2.0;
-      worst = std::max(worst, glm::length(chord - layers.point_at((from + to) / 2, (p + q) / 2.0)));
+      const Vec2 chord = (layers.at(from).image(p) + layers.at(to).image(q)) / 2.0;
+      worst = std::max(worst, glm::length(chord - layers.at((from + to) / 2).image((p + q) / 2.0)));
     }
   }
   return worst / glm::length(Vec2(5, 5));
@@ -153,12 +153,12 @@ TEST(SmoothSlicing, OfAThreadJoinsEdgesOfTheSameDirection) {
 double error_of_sides(const TwistedLayers& layers, const Slicing& slicing, const Disc& disc) {
   const Polygon& polygon = slicing.outline.front();
   const double step = 1.0 / slicing.slices;
-  const Vec2 center = layers.point_at(step / 2, disc.center);
+  const Vec2 center = layers.at(step / 2).image(disc.center);
   double worst = 0;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 below = polygon[i];
     const Vec2 above =
-        layers.point_at(step, polygon[(i + slicing.offsets.front()) % polygon.size()]);
+        layers.at(step).image(polygon[(i + slicing.offsets.front()) % polygon.size()]);
     worst = std::max(worst, std::abs(glm::length((below + above) / 2.0 - center) - disc.radius));
   }
   return worst;
