@@ -14,10 +14,6 @@
 #include "solids/leaves.hpp"
 #include "solids/solid_shape.hpp"
 #include "subtrees/inner_parts.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/plane_lowering.hpp"
-#include "subtrees/solid_evaluation.hpp"
-#include "subtrees/solid_lowering.hpp"
 
 namespace frontend {
 namespace {
@@ -123,7 +119,8 @@ Collector::Collector(const DesignTree& tree, const ImportOptions& options)
       tree_(*tree.nodes),
       options_(options),
       keeps_colors_(GeometryDialect(options.language).keeps_colors),
-      solids_(options.solids ? options.solids : std::make_shared<SolidPool>()) {
+      solids_(options.solids ? options.solids : std::make_shared<SolidPool>()),
+      sources_{polyhedra, files, figure_solids_, *solids_} {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
 }
 
@@ -289,7 +286,7 @@ std::optional<SolidShape> Collector::read_solid(uint32_t index) {
   const Node& node = tree_.nodes[index];
   NodeReader reader(tree_, node, problems);
   std::optional<SolidShape> shape =
-      solid_shape(read_node(reader, sources_of(index)), node, {polyhedra, files}, problems);
+      solid_shape(read_node(reader, sources_of(index)), node, sources_, problems);
   if (!shape || shape->faces == nullptr) return shape;
   const SolidOfFaces& faces = *shape->faces;
   if (faces.is_empty()) {
@@ -410,8 +407,8 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
   return static_cast<uint32_t>(primitives.size()) - 1;
 }
 
-PlaneSubtree Collector::read_plane(uint32_t root) {
-  PlaneSubtree subtree(tree_, root);
+Subtree Collector::read_subtree(uint32_t root) {
+  Subtree subtree(tree_, root);
   for (uint32_t i = root; i < tree_.nodes[root].end; ++i) {
     subtree.take(ids_[i], sources_of(i), files, problems);
   }
@@ -423,9 +420,9 @@ PlaneSubtree Collector::read_plane(uint32_t root) {
 
 /// Adds a subtree of 2D nodes, or of an operation on solids, as one leaf.
 void Collector::add_plane(uint32_t root) {
-  const PlaneSubtree subtree = read_plane(root);
+  const Subtree subtree = read_subtree(root);
   const Context context = typed_context(root);
-  add_plane_leaf(subtree, context, problems);
+  add_plane_leaf(subtree, root, context, problems);
   // Among solids a final render ignores a plane figure.
   PlaneLeaf& leaf = plane_leaves.back();
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
@@ -474,7 +471,7 @@ bool Collector::add_if_plane(uint32_t root) {
   const int dimension = dimension_of(root);
   if (dimension != 0 && !keeps_dimension(root, dimension)) return true;
   if (dimension != 2) return false;
-  add_plane_leaf(read_plane(root), typed_context(root), problems);
+  add_plane_leaf(read_subtree(root), root, typed_context(root), problems);
   return true;
 }
 
@@ -487,15 +484,15 @@ bool Collector::keeps_dimension(uint32_t root, int dimension) {
   return false;
 }
 
-void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
+void Collector::add_plane_leaf(const Subtree& subtree, uint32_t root, const Context& context,
                                NodeProblems& told) {
-  PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
-  leaf.presence = lower_plane(subtree, context, told, leaf);
+  PlaneLeaf leaf{root, context.frame, Presence::kEmpty, {}, {}, false};
+  leaf.presence = lower_subtree(subtree, context, told, leaf);
   plane_leaves.push_back(std::move(leaf));
 }
 
 /// Gives each part inside that is drawn by itself a leaf of its own.
-void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& context) {
+void Collector::add_inner_parts(const Subtree& subtree, const Context& context) {
   if (context.in_leaf || options_.picture == PictureKind::kRendered) return;
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
@@ -509,54 +506,33 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
-    add_plane_leaf(subtree.part(part.node), inner, told);
+    add_plane_leaf(subtree, part.node, inner, told);
     plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
 /// Leaves nodes out that are not lowered; the rest is, as if they were not there.
-Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
-                                NodeProblems& told, PlaneLeaf& leaf) {
-  const uint32_t root = subtree.root();
-  const auto miss = [&](uint32_t node, std::string_view why) { leave_out(node, std::string(why)); };
-  PlaneEvaluation evaluation(subtree, told, miss,
-                             [&](const PlaneEvaluation& planes, uint32_t node) {
-                               SolidEvaluation solids(subtree, planes, options_, {polyhedra, files},
-                                                      figure_solids_, *solids_, told);
-                               std::optional<FigureOperations> result = solids.projection(node);
-                               if (!result) miss(node, solids.failure());
-                               return result;
-                             });
-  if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
+Presence Collector::lower_subtree(const Subtree& subtree, const Context& context,
+                                  NodeProblems& told, PlaneLeaf& leaf) {
+  SubtreeEvaluation evaluation(
+      subtree, leaf.node, options_, sources_, told,
+      [&](uint32_t node, std::string_view why) { leave_out(node, std::string(why)); });
+  if (evaluation.presence(leaf.node) != Presence::kSolid) return evaluation.presence(leaf.node);
   if (context.flattened) return Presence::kEmpty;
-  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
+  if (evaluation.is_solid()) {
+    std::optional<SolidValue> value = evaluation.solid();
+    if (!value) return Presence::kLeftOut;
+    if (value->is_empty()) return Presence::kEmpty;
+    pending_.push_back({leaf.node, context.frame, frames[context.frame].to_world,
+                        subtree.id(leaf.node), primitives.size(), std::move(*value)});
+    pending_contexts_.push_back(context);
+    return Presence::kSolid;
+  }
   const bool is_rendered = options_.picture == PictureKind::kRendered;
-  const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
-      lower_subtree(subtree, evaluation, plate, leaf.frame, frames, figure_solids_, told);
-  if (lowered.is_plate && is_rendered) {
-    evaluation.find_all_figures();
-    const std::span<const Figure> figures = evaluation.figures(root);
-    leaf.figures.assign(figures.begin(), figures.end());
-  }
+      lower_figures(evaluation, is_rendered ? Plate::kFlat : Plate::kPreview, leaf.frame, frames);
+  if (lowered.is_plate && is_rendered) leaf.figures = evaluation.figures(leaf.node);
   return take_lowered(std::move(lowered), context, leaf);
-}
-
-Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                                    const Context& context, NodeProblems& told) {
-  const uint32_t root = subtree.root();
-  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files}, figure_solids_,
-                         *solids_, told);
-  std::optional<SolidValue> value = solids.run();
-  if (!value) {
-    leave_out(root, std::string(solids.failure()));
-    return Presence::kLeftOut;
-  }
-  if (value->is_empty()) return Presence::kEmpty;
-  pending_.push_back({root, context.frame, frames[context.frame].to_world, subtree.id(root),
-                      primitives.size(), std::move(*value)});
-  pending_contexts_.push_back(context);
-  return Presence::kSolid;
 }
 
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the

@@ -23,10 +23,8 @@
 #include "solids/import_polyhedra.hpp"
 #include "solids/solid_pool.hpp"
 #include "solids/solid_shape.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/plane_lowering.hpp"
-#include "subtrees/solid_lowering.hpp"
-#include "subtrees/subtree.hpp"
+#include "subtrees/lowering.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 
@@ -122,7 +120,7 @@ class Collector {
   std::optional<SolidShape> read_solid(uint32_t node);
   void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
                  const Context& context);
-  PlaneSubtree read_plane(uint32_t root);
+  Subtree read_subtree(uint32_t root);
   void add_plane(uint32_t root);
   bool is_of_either_dimension(uint32_t node);
   /// The dimension of the first geometry of a subtree: 2, 3, or 0 if it has none.
@@ -131,12 +129,11 @@ class Collector {
   /// Returns whether a final render keeps a part of that dimension. One that it does not keep is
   /// empty, with a warning.
   bool keeps_dimension(uint32_t root, int dimension);
-  void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
-  Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
-                       PlaneLeaf& leaf);
-  void add_inner_parts(const PlaneSubtree& subtree, const Context& context);
-  Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                           const Context& context, NodeProblems& told);
+  void add_plane_leaf(const Subtree& subtree, uint32_t root, const Context& context,
+                      NodeProblems& told);
+  Presence lower_subtree(const Subtree& subtree, const Context& context, NodeProblems& told,
+                         PlaneLeaf& leaf);
+  void add_inner_parts(const Subtree& subtree, const Context& context);
   void add_pending(const std::stop_token& stop);
   Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
 
@@ -154,6 +151,7 @@ class Collector {
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
   const std::shared_ptr<SolidPool> solids_;
+  const SolidSources sources_;
   /// Hulls of solids, in file order, and what their roots are handed down.
   std::vector<PendingSolid> pending_;
   std::vector<Context> pending_contexts_;

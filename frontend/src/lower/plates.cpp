@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "subtrees/plane_lowering.hpp"
+#include "subtrees/lowering.hpp"
 
 namespace frontend {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "csgcore/geometry.hpp"
 #include "frontend/design_tree.hpp"
-#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 

@@ -3,7 +3,7 @@
 
 #include "language/color_names.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/solid_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -67,10 +67,10 @@ NodeColor read_color(NodeReader& reader) {
   return color_of_channels(channels);
 }
 
-SolidValue colored(SolidEvaluation& solids, uint32_t node) {
-  SolidValue result = combined(csgcore::Op::kUnion, solids.operands(node));
-  if (solids.keeps_colors()) {
-    const NodeColor& own = solids.data<NodeColor>(node);
+SolidValue colored(SubtreeEvaluation& evaluation, uint32_t node) {
+  SolidValue result = combined(csgcore::Op::kUnion, evaluation.solids_of_operands(node));
+  if (evaluation.keeps_colors()) {
+    const NodeColor& own = evaluation.data<NodeColor>(node);
     for (SolidPart& part : result.parts) part.color = inner_color(own, part.color);
   }
   return result;

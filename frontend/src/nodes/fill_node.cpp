@@ -1,6 +1,6 @@
 #include "plane/outlines.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 
@@ -8,8 +8,8 @@ const NodeRow kFillRow{
     .role = Role::kOperation,
     .is_one_leaf = true,
     .joins_figures = true,
-    .figures = [](PlaneEvaluation& planes,
-                  uint32_t node) { return without_holes(planes.union_of_operands(node)); },
+    .figures = [](SubtreeEvaluation& evaluation,
+                  uint32_t node) { return without_holes(evaluation.figures_of_operands(node)); },
 };
 
 }  // namespace frontend

@@ -5,15 +5,14 @@
 #include "hulls/point_hull.hpp"
 #include "plane/hull.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/solid_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
 
-std::optional<std::vector<Figure>> hull_of_figures(PlaneEvaluation& planes, uint32_t node) {
+std::optional<std::vector<Figure>> hull_of_figures(SubtreeEvaluation& evaluation, uint32_t node) {
   std::vector<Disc> discs;
-  for (const Figure& figure : planes.union_of_operands(node)) add_hull_points(figure, discs);
+  for (const Figure& figure : evaluation.figures_of_operands(node)) add_hull_points(figure, discs);
   return std::vector<Figure>{convex_hull(discs)};
 }
 
@@ -52,7 +51,7 @@ SolidPart* largest_body(std::vector<SolidValue>& operands) {
   return largest;
 }
 
-SolidValue hull_of_solids(SolidEvaluation& solids, uint32_t node) {
+SolidValue hull_of_solids(SubtreeEvaluation& evaluation, uint32_t node) {
   SupportSet support;
   csgcore::Box box;
   size_t most_before = 0;  // generators of a hull within
@@ -61,7 +60,7 @@ SolidValue hull_of_solids(SolidEvaluation& solids, uint32_t node) {
     part.add_support(support);
     box.merge(part.box);
   };
-  std::vector<SolidValue> all = solids.operands(node);
+  std::vector<SolidValue> all = evaluation.solids_of_operands(node);
   // The largest body is added to: a chain of hulls within hulls copies none at each of them.
   SolidPart* const largest = largest_body(all);
   if (largest != nullptr) {
@@ -71,7 +70,7 @@ SolidValue hull_of_solids(SolidEvaluation& solids, uint32_t node) {
   }
   for (const SolidValue& operand : all) {
     if (largest != nullptr && operand.parts.data() == largest) continue;
-    for (const SolidPart& part : solids.united(operand)) add(part);
+    for (const SolidPart& part : evaluation.united(operand)) add(part);
   }
   if (support.generators.empty()) return {};
   // Now and then, so that a chain of hulls has no more points than the last of them.

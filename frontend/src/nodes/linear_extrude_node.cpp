@@ -84,9 +84,9 @@ bool are_round(const std::vector<PlacedFigure>& figures, const TwistedLayers& la
 }
 
 LoweredSubtree sliced(const Extrusion& extrusion) {
-  const auto& data = std::get<LinearExtrudeNode>(extrusion.data);
-  std::optional<SlicedExtrusion> solid =
-      sliced_extrusion(data, extrusion.node, extrusion.outcome(), extrusion.problems);
+  const auto& data = extrusion.evaluation.data<LinearExtrudeNode>(extrusion.node);
+  std::optional<SlicedExtrusion> solid = sliced_extrusion(
+      data, extrusion.syntax(), extrusion.outcome(), extrusion.evaluation.problems());
   if (!solid) return {};
   std::vector<Primitive> parts;
   if (!extrusion.is_operand) parts = std::move(solid->sheets);
@@ -98,7 +98,8 @@ LoweredSubtree sliced(const Extrusion& extrusion) {
 }
 
 LoweredSubtree extruded(const Extrusion& extrusion) {
-  const LinearExtrudeArguments& arguments = std::get<LinearExtrudeNode>(extrusion.data).arguments;
+  const LinearExtrudeArguments& arguments =
+      extrusion.evaluation.data<LinearExtrudeNode>(extrusion.node).arguments;
   if (!(arguments.height > 0)) return {};
   const TwistedLayers layers = layers_of(arguments);
   if (layers.is_twisted() && !are_round(extrusion.figures.figures, layers)) {
@@ -107,7 +108,7 @@ LoweredSubtree extruded(const Extrusion& extrusion) {
   return extrude(
       extrusion.figures,
       {layers.z_min, layers.z_max, layers.top_scale.x, arguments.lean / arguments.height}, false,
-      extrusion.to_world(), extrusion.frames, extrusion.solids);
+      extrusion.to_world(), extrusion.frames, extrusion.solids());
 }
 
 LinearExtrudeArguments read_linear_extrude(NodeReader& reader) {
@@ -133,6 +134,7 @@ const NodeRow kLinearExtrudeRow{
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
       return linear_extrude_node(read_linear_extrude(reader), sources.options);
     },
+    .solid = solid_of_extrusion,
     .extruded = extruded,
 };
 

@@ -1,8 +1,7 @@
 #include <algorithm>
 
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/solid_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -43,8 +42,8 @@ FileMatrix read_matrix(NodeReader& reader) {
   return result;
 }
 
-SolidValue moved(SolidEvaluation& evaluation, uint32_t node) {
-  SolidValue result = combined(csgcore::Op::kUnion, evaluation.operands(node));
+SolidValue moved(SubtreeEvaluation& evaluation, uint32_t node) {
+  SolidValue result = combined(csgcore::Op::kUnion, evaluation.solids_of_operands(node));
   const FileMatrix& file = evaluation.data<FileMatrix>(node);
   if (!is_affine(file)) return {};
   result.map(heal(file).map);
@@ -57,8 +56,9 @@ const NodeRow kMultmatrixRow{
     .role = Role::kOperation,
     .inner_parts = InnerParts::kOfMembers,
     .read = [](NodeReader& reader, const NodeSources&) -> NodeData { return read_matrix(reader); },
-    .figures = [](PlaneEvaluation& planes, uint32_t node) -> std::optional<std::vector<Figure>> {
-      return planes.moved(planes.union_of_operands(node), node);
+    .figures = [](SubtreeEvaluation& evaluation,
+                  uint32_t node) -> std::optional<std::vector<Figure>> {
+      return evaluation.moved(evaluation.figures_of_operands(node), node);
     },
     .solid = moved,
 };

@@ -3,7 +3,7 @@
 
 #include "base/geometry_dialect.hpp"
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -41,8 +41,9 @@ const NodeRow kOffsetRow{
       return read_offset(reader, sources);
     },
     .figures =
-        [](PlaneEvaluation& planes, uint32_t node) {
-          return offset(planes.union_of_operands(node), planes.data<OffsetSettings>(node));
+        [](SubtreeEvaluation& evaluation, uint32_t node) {
+          return offset(evaluation.figures_of_operands(node),
+                        evaluation.data<OffsetSettings>(node));
         },
 };
 

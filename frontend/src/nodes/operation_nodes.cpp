@@ -1,16 +1,17 @@
 // The nodes that say nothing but what becomes of their children.
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Op;
 
-std::optional<std::vector<Figure>> joined(PlaneEvaluation& planes, uint32_t node) {
+std::optional<std::vector<Figure>> joined(SubtreeEvaluation& evaluation, uint32_t node) {
   std::vector<const std::vector<Figure>*> operands;
-  planes.visit_operands(node, [&](uint32_t child) {
-    if (planes.presence(child) == Presence::kSolid) operands.push_back(&planes.figures(child));
+  evaluation.visit_operands(node, [&](uint32_t child) {
+    if (evaluation.presence(child) == Presence::kSolid)
+      operands.push_back(&evaluation.figures(child));
   });
   if (operands.size() == 1) return *operands.front();
   std::vector<SimplePolygons> outlines;
@@ -19,7 +20,7 @@ std::optional<std::vector<Figure>> joined(PlaneEvaluation& planes, uint32_t node
     if (!outline) return std::nullopt;
     outlines.push_back(std::move(*outline));
   }
-  std::optional<SimplePolygons> result = combined(planes.row(node).op, outlines);
+  std::optional<SimplePolygons> result = combined(evaluation.row(node).op, outlines);
   if (!result) return std::nullopt;
   return std::vector<Figure>{outline_of(std::move(*result), csgcore::FillRule::kNonZero)};
 }

@@ -1,5 +1,5 @@
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -13,8 +13,8 @@ const NodeRow kProjectionRow{
     .read = [](NodeReader& reader, const NodeSources&) -> NodeData {
       return ProjectionNode{reader.is_true("cut", 0)};
     },
-    .figures = [](PlaneEvaluation& planes,
-                  uint32_t node) { return outcome_of(planes.projection(node)); },
+    .figures = [](SubtreeEvaluation& evaluation,
+                  uint32_t node) { return outcome_of(evaluation.projection(node)); },
 };
 
 }  // namespace frontend

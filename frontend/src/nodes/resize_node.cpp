@@ -2,8 +2,7 @@
 #include <cmath>
 
 #include "subtrees/node_row.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/solid_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -56,30 +55,30 @@ csgcore::Vec3 factors_of(const ResizeArguments& arguments, const csgcore::Vec3& 
   return result;
 }
 
-std::optional<std::vector<Figure>> resized(PlaneEvaluation& planes, uint32_t node) {
-  std::vector<Figure> figures = planes.union_of_operands(node);
+std::optional<std::vector<Figure>> resized_figures(SubtreeEvaluation& evaluation, uint32_t node) {
+  std::vector<Figure> figures = evaluation.figures_of_operands(node);
   Rectangle box;
   for (const Figure& figure : figures) box.merge(bounds_of(figure));
   PlaneMap map;
   if (!box.empty()) {
     const csgcore::Vec3 factor =
-        factors_of(planes.data<ResizeArguments>(node), csgcore::Vec3(box.max - box.min, 0), 2);
+        factors_of(evaluation.data<ResizeArguments>(node), csgcore::Vec3(box.max - box.min, 0), 2);
     map.linear = glm::dmat2(factor.x, 0, 0, factor.y);
   }
-  planes.set_map(node, map);
-  return planes.moved(std::move(figures), node);
+  evaluation.set_map(node, map);
+  return evaluation.moved(std::move(figures), node);
 }
 
 /// What is round has OpenSCAD's chords.
 constexpr int kChordsOfOpenScad = 0;
 
-SolidValue resized(SolidEvaluation& solids, uint32_t node) {
-  SolidValue result = combined(csgcore::Op::kUnion, solids.operands(node));
+SolidValue resized_solid(SubtreeEvaluation& evaluation, uint32_t node) {
+  SolidValue result = combined(csgcore::Op::kUnion, evaluation.solids_of_operands(node));
   if (result.is_empty()) return {};
   csgcore::Box box;
-  for (const SolidPart& part : solids.united(result, kChordsOfOpenScad)) box.merge(part.box);
+  for (const SolidPart& part : evaluation.united(result, kChordsOfOpenScad)) box.merge(part.box);
   if (box.empty()) return {};
-  const csgcore::Vec3 factors = factors_of(solids.data<ResizeArguments>(node), box.size(), 3);
+  const csgcore::Vec3 factors = factors_of(evaluation.data<ResizeArguments>(node), box.size(), 3);
   csgcore::Affine map;
   for (int axis = 0; axis < 3; ++axis) map.linear[axis][axis] = factors[axis];
   result.map(map);
@@ -94,8 +93,8 @@ const NodeRow kResizeRow{
     .inner_parts = InnerParts::kOwn,
     .label = kResizeLabel,
     .read = [](NodeReader& reader, const NodeSources&) -> NodeData { return read_resize(reader); },
-    .figures = resized,
-    .solid = resized,
+    .figures = resized_figures,
+    .solid = resized_solid,
 };
 
 }  // namespace frontend

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/angles.hpp"
 #include "csgcore/facets.hpp"
@@ -54,8 +54,8 @@ LoweredSubtree roofed_disc(const Disc& disc, const Extrusion& extrusion) {
 }
 
 LoweredSubtree roofed(const Extrusion& extrusion) {
-  const auto& data = std::get<RoofNode>(extrusion.data);
-  const std::span<const Figure> figures = extrusion.outcome();
+  const auto& data = extrusion.evaluation.data<RoofNode>(extrusion.node);
+  const std::vector<Figure> figures = extrusion.outcome();
   const Disc* disc = figures.size() == 1 ? std::get_if<Disc>(&figures.front()) : nullptr;
   if (disc != nullptr && disc->radius > 0) return roofed_disc(*disc, extrusion);
   Rectangle bounds;
@@ -65,14 +65,13 @@ LoweredSubtree roofed(const Extrusion& extrusion) {
   const std::optional<SimplePolygons> outline =
       united(figures, {kSmoothChords, kSmoothTolerance * reach});
   if (!outline) {
-    extrusion.problems.add(extrusion.node, {" is left out: its edges cross too often",
-                                            "let its outline not cross itself"});
+    extrusion.tell({" is left out: its edges cross too often", "let its outline not cross itself"});
     return {};
   }
   const std::optional<Roof> roof = roof_over(*outline, bevel_step_of(data, bounds));
   if (!roof) {
-    extrusion.problems.add(extrusion.node, {" is left out: Skeleton computation error",
-                                            "let no corners of its outline nearly touch"});
+    extrusion.tell(
+        {" is left out: Skeleton computation error", "let no corners of its outline nearly touch"});
     return {};
   }
   if (roof->ends.empty()) return {};
@@ -94,6 +93,7 @@ const NodeRow kRoofRow{
     .read = [](NodeReader& reader, const NodeSources& sources) -> NodeData {
       return read_roof(reader, sources);
     },
+    .solid = solid_of_extrusion,
     .extruded = roofed,
 };
 

@@ -54,9 +54,9 @@ TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius)
 }
 
 /// Returns the bounds of a figure on one side of the axis x = 0, so that they end there if they
-/// reach beyond it by less than a figure's rounding. Nothing if it stands on both sides, of which
-/// `problems` is told.
-std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node, NodeProblems& problems) {
+/// reach beyond it by less than a figure's rounding. Nothing if it stands on both sides, which is
+/// told.
+std::optional<Rectangle> on_one_side(Rectangle bounds, const Extrusion& extrusion) {
   if (!(bounds.min.x < 0 && bounds.max.x > 0)) return bounds;
   // OpenSCAD's grid: a figure that reaches less beyond the axis touches it.
   constexpr double kReachBeyondAxis = 0x1p-16;
@@ -69,7 +69,7 @@ std::optional<Rectangle> on_one_side(Rectangle bounds, const Node& node, NodePro
                 ": all points for rotate_extrude() must have the same X coordinate sign "
                 "(range is %.2f -> %.2f)",
                 bounds.min.x, bounds.max.x);
-  problems.add(node, {text.data(), "keep the profile on one side of the Y axis"});
+  extrusion.tell({text.data(), "keep the profile on one side of the Y axis"});
   return std::nullopt;
 }
 
@@ -89,7 +89,7 @@ class Revolving {
   explicit Revolving(const Extrusion& extrusion)
       : extrusion_(extrusion),
         to_world_(extrusion.to_world()),
-        data_(std::get<RotateExtrudeNode>(extrusion.data)) {}
+        data_(extrusion.evaluation.data<RotateExtrudeNode>(extrusion.node)) {}
 
   LoweredSubtree run() {
     LoweredSubtree result;
@@ -129,12 +129,12 @@ class Revolving {
       note_crossings();
       return std::nullopt;
     }
-    return on_one_side(bounds_of(*outline), extrusion_.node, extrusion_.problems);
+    return on_one_side(bounds_of(*outline), extrusion_);
   }
 
   void note_crossings() const {
-    extrusion_.problems.add(extrusion_.node, {" is left out: its edges cross too often",
-                                              "let its outline not cross itself"});
+    extrusion_.tell(
+        {" is left out: its edges cross too often", "let its outline not cross itself"});
   }
 
   /// Returns the box of the corners that OpenSCAD's rings have.
@@ -160,8 +160,8 @@ class Revolving {
     result.solid = tree_of_parts(
         extrusion_.figures, result.parts,
         [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
-          std::optional<Primitive> primitive =
-              extrusion_.solids.revolved(mapped(compose(to_right, placed.place()), *placed.figure));
+          std::optional<Primitive> primitive = extrusion_.solids().revolved(
+              mapped(compose(to_right, placed.place()), *placed.figure));
           if (!primitive) return std::nullopt;
           primitive->local_to_world = compose(compose(to_world_, place), primitive->local_to_world);
           return LoweredSubtree::Part{std::move(*primitive), extrusion_.frame, box_,
@@ -181,9 +181,7 @@ class Revolving {
       const std::span<const Vec3> vertices = mesh.mesh()->vertices();
       mesh = csgcore::make_mesh(std::make_shared<csgcore::TriangleMesh>(
           std::vector<Vec3>(vertices.begin(), vertices.end()), std::move(sheet)));
-      extrusion_.problems.add(
-          extrusion_.node,
-          {" has no volume", "it is drawn as a thin sheet: give it more fragments"});
+      extrusion_.tell({" has no volume", "it is drawn as a thin sheet: give it more fragments"});
     }
     mesh.local_to_world = to_world_;
     mesh.id = extrusion_.figures.figures.front().id;
@@ -198,8 +196,8 @@ class Revolving {
     const double angle = std::abs(sections_.angle);
     const double first = sections_.start + std::min(sections_.angle, 0.0) + (is_left_ ? 180 : 0);
     const bool is_convex = angle <= 180;
-    Primitive wedge =
-        extrusion_.solids.wedge(is_convex ? angle : 360 - angle, radius, reach.min.y, reach.max.y);
+    Primitive wedge = extrusion_.solids().wedge(is_convex ? angle : 360 - angle, radius,
+                                                reach.min.y, reach.max.y);
     wedge.local_to_world =
         compose(compose(to_world_, turned_about_z(is_convex ? first : first + angle)),
                 wedge.local_to_world);
@@ -240,6 +238,7 @@ const NodeRow kRotateExtrudeRow{
       result.is_faceted = keeps_facets(sources.options, result.arguments.facets);
       return result;
     },
+    .solid = solid_of_extrusion,
     .extruded = [](const Extrusion& extrusion) { return Revolving(extrusion).run(); },
 };
 

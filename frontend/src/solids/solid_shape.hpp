@@ -7,7 +7,9 @@
 #include "arguments/node_data.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/primitive.hpp"
+#include "solids/figure_solids.hpp"
 #include "solids/import_files.hpp"
+#include "solids/solid_pool.hpp"
 
 namespace frontend {
 
@@ -15,6 +17,8 @@ namespace frontend {
 struct SolidSources {
   PolyhedronPool& polyhedra;
   FileImports& files;
+  FigureSolids& figures;
+  SolidPool& pool;
 };
 
 /// A solid in its own coordinates, without colour and id.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "solids/faceted_box.hpp"
+#include "solids/leaves.hpp"
 
 namespace frontend {
 namespace {
@@ -24,6 +25,11 @@ Affine scaled_place(const PlaneMap& map, const Layers& layers) {
 }
 
 }  // namespace
+
+std::vector<Figure> Extrusion::outcome() const {
+  if (!is_operand) evaluation.find_all_figures();
+  return evaluation.figures_of_operands(node);
+}
 
 LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_plate,
                        const Affine& root_to_world, const FrameTree& frames, FigureSolids& solids) {
@@ -71,6 +77,27 @@ LoweredSubtree in_place_of(const Extrusion& extrusion, std::vector<Primitive> so
     result.parts.push_back({std::move(solid), extrusion.frame, *result.box});
   }
   result.solid = builder.finish();
+  return result;
+}
+
+SolidValue solid_of_extrusion(SubtreeEvaluation& evaluation, uint32_t node) {
+  FrameTree frames;
+  FigureTree figures = figure_tree(evaluation, node, 0, frames);
+  if (figures.figures.empty()) return {};
+  // What is needed is the surface: operations are done in the plane.
+  if (!is_union(figures.tree)) {
+    figures = union_of(evaluation.figures_of_operands(node), 0, evaluation.subtree().id(node));
+  }
+  LoweredSubtree lowered =
+      evaluation.row(node).extruded({evaluation, node, figures, 0, frames, true});
+  SolidValue result{{}, std::move(lowered.solid)};
+  for (LoweredSubtree::Part& part : lowered.parts) {
+    SolidPart& own = result.parts.emplace_back();
+    own.primitive = std::move(part.primitive);
+    own.facets = part.facets;
+    own.is_faceted = lowered.is_faceted;
+    own.box = part.box;
+  }
   return result;
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "heal/frames.hpp"
@@ -15,21 +14,24 @@ namespace frontend {
 
 /// A node that extrudes or revolves figures.
 struct Extrusion {
-  const Node& node;
-  const NodeData& data;
+  SubtreeEvaluation& evaluation;
+  uint32_t node;
   const FigureTree& figures;  // those of its children
-  /// Returns figures whose union these operations leave. It may take long: there is no need for it
-  /// where the operations commute with extruding.
-  std::function<std::span<const Figure>()> outcome;
-  uint32_t frame;  // where the node stands
+  uint32_t frame;             // where the node stands
   const FrameTree& frames;
-  FigureSolids& solids;
-  NodeProblems& problems;
   /// The solid is an operand of a hull, a sum or the like, and is not drawn: sheets that stand for
   /// what has no volume are left out, and no operations are added.
   bool is_operand = false;
 
+  const Node& syntax() const { return evaluation.subtree().syntax(node); }
+  FigureSolids& solids() const { return evaluation.sources().figures; }
   const csgcore::Affine& to_world() const { return frames[frame].to_world; }
+  void tell(NodeProblems::Description problem) const {
+    evaluation.problems().add(syntax(), std::move(problem));
+  }
+  /// Returns figures whose union the operations of `figures` leave. It may take long: there is no
+  /// need for it where the operations commute with extruding.
+  std::vector<Figure> outcome() const;
 };
 
 /// Extrudes each figure by itself. Of a plate the boxes are flat.
@@ -41,5 +43,8 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
 /// the box around them.
 LoweredSubtree in_place_of(const Extrusion& extrusion, std::vector<csgcore::Primitive> solids,
                            const csgcore::Box& box, const csgcore::Affine& to_world);
+
+/// Returns the solid that `extruded` of the node's row makes.
+SolidValue solid_of_extrusion(SubtreeEvaluation& evaluation, uint32_t node);
 
 }  // namespace frontend

@@ -11,9 +11,8 @@ using csgcore::Vec3;
 /// Writes the operations of a node, from the outside in.
 class FigureTreeWriter {
  public:
-  FigureTreeWriter(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                   FrameTree& frames)
-      : subtree_(subtree), evaluation_(evaluation), frames_(frames) {}
+  FigureTreeWriter(const SubtreeEvaluation& evaluation, FrameTree& frames)
+      : subtree_(evaluation.subtree()), evaluation_(evaluation), frames_(frames) {}
 
   FigureTree write(uint32_t root, uint32_t frame) {
     const uint32_t end = subtree_.end_of(root);
@@ -114,8 +113,8 @@ class FigureTreeWriter {
                         subtree_.id(node), 0, letter.place, letter.shape.profile});
   }
 
-  const PlaneSubtree& subtree_;
-  const PlaneEvaluation& evaluation_;
+  const Subtree& subtree_;
+  const SubtreeEvaluation& evaluation_;
   FrameTree& frames_;
   std::vector<Open> open_;
   CsgTreeBuilder builder_;
@@ -124,9 +123,9 @@ class FigureTreeWriter {
 
 }  // namespace
 
-FigureTree figure_tree(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                       uint32_t node, uint32_t frame, FrameTree& frames) {
-  return FigureTreeWriter(subtree, evaluation, frames).write(node, frame);
+FigureTree figure_tree(const SubtreeEvaluation& evaluation, uint32_t node, uint32_t frame,
+                       FrameTree& frames) {
+  return FigureTreeWriter(evaluation, frames).write(node, frame);
 }
 
 FigureTree union_of(std::span<const Figure> figures, uint32_t frame, uint32_t id) {

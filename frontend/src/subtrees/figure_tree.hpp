@@ -15,8 +15,7 @@
 #include "plane/plane_map.hpp"
 #include "solids/leaves.hpp"
 #include "subtrees/lowered_subtree.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/subtree.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 
@@ -42,8 +41,8 @@ struct FigureTree {
 
 /// Returns the operations of a node of the subtree, which stands in `frame`; adds frames. Of an
 /// extrusion they are those of its children. The places lead to the plane of that node.
-FigureTree figure_tree(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                       uint32_t node, uint32_t frame, FrameTree& frames);
+FigureTree figure_tree(const SubtreeEvaluation& evaluation, uint32_t node, uint32_t frame,
+                       FrameTree& frames);
 
 /// Returns the union of figures that stand where the node does.
 FigureTree union_of(std::span<const Figure> figures, uint32_t frame, uint32_t id);

@@ -15,7 +15,7 @@ struct OpenPart {
 
 }  // namespace
 
-std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree) {
+std::vector<InnerPart> inner_parts(const Subtree& subtree) {
   std::vector<InnerPart> result;
   std::vector<uint32_t> around;  // that are open
   std::vector<OpenPart> open;

@@ -21,6 +21,6 @@ struct InnerPart {
 
 /// Returns the leaves of what OpenSCAD's preview shows: of groups their members. None of other
 /// roots, and none inside of extrusions, offset() and render().
-std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree);
+std::vector<InnerPart> inner_parts(const Subtree& subtree);
 
 }  // namespace frontend

@@ -16,8 +16,7 @@
 
 namespace frontend {
 
-class PlaneEvaluation;
-class SolidEvaluation;
+class SubtreeEvaluation;
 struct Extrusion;
 struct LoweredSubtree;
 struct SolidValue;
@@ -66,9 +65,10 @@ struct NodeRow {
   NodeData (*read)(NodeReader& reader, const NodeSources& sources) = nullptr;
   /// Returns figures whose union is the node's, which is solid, from those of its operands; nothing
   /// if their edges cross too often. Null: they are those of the operands.
-  std::optional<std::vector<Figure>> (*figures)(PlaneEvaluation& planes, uint32_t node) = nullptr;
+  std::optional<std::vector<Figure>> (*figures)(SubtreeEvaluation& evaluation,
+                                                uint32_t node) = nullptr;
   /// Returns the node's solid from those of its operands. Null: `op` is what it does with them.
-  SolidValue (*solid)(SolidEvaluation& solids, uint32_t node) = nullptr;
+  SolidValue (*solid)(SubtreeEvaluation& evaluation, uint32_t node) = nullptr;
   /// Of an extrusion: returns the primitives, with the operations on its figures. Null: they are
   /// those of `solid`.
   LoweredSubtree (*extruded)(const Extrusion& extrusion) = nullptr;

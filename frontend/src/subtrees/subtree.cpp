@@ -21,21 +21,14 @@ const ImportedDrawing* drawing_of(NodeReader& reader, const NodeSources& sources
 
 }  // namespace
 
-void PlaneSubtree::take(uint32_t id, const NodeSources& sources, FileImports& files,
-                        NodeProblems& problems) {
+void Subtree::take(uint32_t id, const NodeSources& sources, FileImports& files,
+                   NodeProblems& problems) {
   const Node& node = syntax(end());
   // A colour within a leaf of one colour counts for its `%` parts only.
   NodeProblems untold;
   NodeReader reader(tree_, node, node.kind == NodeKind::kColor ? untold : problems);
   NodeData data = read_node(reader, sources);
   nodes_.push_back({id, std::move(data), drawing_of(reader, sources, files)});
-}
-
-PlaneSubtree PlaneSubtree::part(uint32_t node) const {
-  PlaneSubtree result(tree_, node);
-  const auto first = nodes_.begin() + (node - root_);
-  result.nodes_.assign(first, first + (end_of(node) - node));
-  return result;
 }
 
 }  // namespace frontend

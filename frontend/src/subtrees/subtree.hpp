@@ -11,16 +11,13 @@
 namespace frontend {
 
 /// The nodes of the subtree, in the tree's order, as far as they were taken.
-class PlaneSubtree {
+class Subtree {
  public:
-  PlaneSubtree(const NodeTree& tree, uint32_t root) : tree_(tree), root_(root) {}
+  Subtree(const NodeTree& tree, uint32_t root) : tree_(tree), root_(root) {}
 
   /// Reads the arguments of the next node of the subtree, and the drawing that it names. `id` is
   /// its place among the primitive nodes. The files must outlive this.
   void take(uint32_t id, const NodeSources& sources, FileImports& files, NodeProblems& problems);
-
-  /// Returns the node's own subtree.
-  PlaneSubtree part(uint32_t node) const;
 
   const NodeTree& tree() const { return tree_; }
   uint32_t root() const { return root_; }

@@ -70,7 +70,7 @@ Polygons own_outlines(const std::string& csg) {
   PolyhedronPool polyhedra(false, false);
   FileImports files({}, polyhedra);
   NodeProblems problems;
-  PlaneSubtree subtree(*tree.nodes, 0);
+  Subtree subtree(*tree.nodes, 0);
   const ImportOptions options{.facets = Facets::kAll};
   subtree.take(0, {options, fonts}, files, problems);
   std::vector<Figure> letters;

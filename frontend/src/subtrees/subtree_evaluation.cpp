@@ -1,4 +1,4 @@
-#include "subtrees/plane_evaluation.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "base/geometry_dialect.hpp"
+#include "base/primitive_traits.hpp"
 #include "csgcore/stop_scope.hpp"
+#include "solids/sections.hpp"
+#include "solids/shadows.hpp"
 
 namespace frontend {
 namespace {
@@ -22,14 +26,19 @@ bool is_empty_figure(const NodeData& data) {
 
 }  // namespace
 
-PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& problems,
-                                 LeaveOut leave_out, Project project)
+SubtreeEvaluation::SubtreeEvaluation(const Subtree& subtree, uint32_t root,
+                                     const ImportOptions& options, const SolidSources& sources,
+                                     NodeProblems& problems, LeaveOut leave_out)
     : subtree_(subtree),
+      root_(root),
+      options_(options),
+      sources_(sources),
       problems_(problems),
       leave_out_(std::move(leave_out)),
-      project_(std::move(project)),
-      nodes_(subtree.end() - subtree.root()) {
-  for (uint32_t i = subtree_.root(); i < subtree_.end(); ++i) {
+      keeps_colors_(GeometryDialect(options.language).keeps_colors),
+      nodes_(subtree.end_of(root) - root) {
+  const uint32_t end = subtree_.end_of(root_);
+  for (uint32_t i = root_; i < end; ++i) {
     at(i).has_figures = at(i).has_figures || row(i).joins_figures;
     const bool is_projection = subtree_.syntax(i).kind == NodeKind::kProjection;
     if (!at(i).has_figures && !is_projection && !is_solid_extrusion(i)) continue;
@@ -38,16 +47,16 @@ PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& prob
     }
   }
   // Children come after their parents: from the last node on, all that a node holds is known.
-  for (uint32_t i = subtree_.end(); i-- > subtree_.root();) {
+  for (uint32_t i = end; i-- > root_;) {
     csgcore::stop_point();
     find_presence(i);
     find_figures(i);
   }
 }
 
-void PlaneEvaluation::find_presence(uint32_t node) {
+void SubtreeEvaluation::find_presence(uint32_t node) {
   const language::Node& syntax = subtree_.syntax(node);
-  const bool is_root = node == subtree_.root();
+  const bool is_root = node == root_;
   // The modifiers of the root count where it stands.
   if (!is_root && (syntax.modifiers & language::kBackgroundModifier) != 0) return;
   Node& own = at(node);
@@ -66,7 +75,7 @@ void PlaneEvaluation::find_presence(uint32_t node) {
   }
 }
 
-void PlaneEvaluation::combine(uint32_t node) {
+void SubtreeEvaluation::combine(uint32_t node) {
   const language::Node& syntax = subtree_.syntax(node);
   Node& own = at(node);
   if (row(node).takes_figures) own.dimension = 2;
@@ -90,24 +99,25 @@ void PlaneEvaluation::combine(uint32_t node) {
 
 /// Finds what a projection makes. Its children are solids, and OpenSCAD does not tell of others
 /// that cast no shadow.
-void PlaneEvaluation::project(uint32_t node) {
+void SubtreeEvaluation::project(uint32_t node) {
   Node& own = at(node);
   own.dimension = 2;
   NodeProblems untold;
-  const bool is_cut = subtree_.data<ProjectionNode>(node).is_cut;
+  const bool is_cut = data<ProjectionNode>(node).is_cut;
   ignore_other_dimension(node, 3, is_cut ? problems_ : untold);
-  std::optional<FigureOperations> projection = project_(*this, node);
-  if (!projection) {
+  find_solids(node);
+  if (failure_.empty()) own.projection = is_cut ? section(node) : shadow(node);
+  if (failure_.empty()) {
+    own.presence = own.projection.is_empty() ? Presence::kEmpty : Presence::kSolid;
+  } else {
     own.presence = Presence::kLeftOut;
-    return;
+    leave_out_(node, failure_);
   }
-  own.presence = projection->is_empty() ? Presence::kEmpty : Presence::kSolid;
-  own.projection = std::move(*projection);
 }
 
 /// Makes operands of the other dimension empty ones, as OpenSCAD takes them.
-void PlaneEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension,
-                                             NodeProblems& problems) {
+void SubtreeEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension,
+                                               NodeProblems& problems) {
   visit_operands(node, [&](uint32_t child) {
     Node& operand = at(child);
     if (operand.dimension == 0 || operand.dimension == dimension) return;
@@ -122,7 +132,7 @@ void PlaneEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension,
   });
 }
 
-Presence PlaneEvaluation::combined_presence(uint32_t node) const {
+Presence SubtreeEvaluation::combined_presence(uint32_t node) const {
   const NodeKind kind = subtree_.syntax(node).kind;
   std::vector<Presence> operands;
   visit_operands(node, [&](uint32_t child) { operands.push_back(at(child).presence); });
@@ -142,15 +152,13 @@ Presence PlaneEvaluation::combined_presence(uint32_t node) const {
   return has(Presence::kLeftOut) ? Presence::kLeftOut : Presence::kEmpty;
 }
 
-void PlaneEvaluation::find_all_figures() {
-  for (Node& node : nodes_) {
-    node.has_figures = true;
-    node.figures.clear();
+void SubtreeEvaluation::find_all_figures() {
+  for (uint32_t i = subtree_.end_of(root_); i-- > root_;) {
+    if (!std::exchange(at(i).has_figures, true)) find_figures(i);
   }
-  for (uint32_t i = subtree_.end(); i-- > subtree_.root();) find_figures(i);
 }
 
-void PlaneEvaluation::find_figures(uint32_t node) {
+void SubtreeEvaluation::find_figures(uint32_t node) {
   const Node& own = at(node);
   if (!own.has_figures || own.presence != Presence::kSolid || own.dimension != 2) return;
   std::optional<std::vector<Figure>> figures = combined_figures(node);
@@ -162,7 +170,7 @@ void PlaneEvaluation::find_figures(uint32_t node) {
   }
 }
 
-std::vector<Figure> PlaneEvaluation::union_of_operands(uint32_t node) const {
+std::vector<Figure> SubtreeEvaluation::figures_of_operands(uint32_t node) const {
   if (const ImportedDrawing* drawing = subtree_.drawing(node)) return drawing->figures;
   std::vector<Figure> all;
   visit_operands(node, [&](uint32_t child) {
@@ -172,13 +180,13 @@ std::vector<Figure> PlaneEvaluation::union_of_operands(uint32_t node) const {
   return all;
 }
 
-std::vector<Figure> PlaneEvaluation::moved(std::vector<Figure> figures, uint32_t node) const {
+std::vector<Figure> SubtreeEvaluation::moved(std::vector<Figure> figures, uint32_t node) const {
   const PlaneMap map = plane_part(at(node).matrix.map);
   for (Figure& figure : figures) figure = mapped(map, figure);
   return figures;
 }
 
-std::optional<std::vector<Figure>> PlaneEvaluation::combined_figures(uint32_t node) {
+std::optional<std::vector<Figure>> SubtreeEvaluation::combined_figures(uint32_t node) {
   const NodeData& data = subtree_.data(node);
   if (const auto* figure = std::get_if<FigureNode>(&data)) return std::vector{*figure->figure};
   if (const auto* text = std::get_if<TextNode>(&data)) {
@@ -189,7 +197,100 @@ std::optional<std::vector<Figure>> PlaneEvaluation::combined_figures(uint32_t no
     return figures;
   }
   const NodeRow& row = subtree_.row(node);
-  return row.figures == nullptr ? union_of_operands(node) : row.figures(*this, node);
+  return row.figures == nullptr ? figures_of_operands(node) : row.figures(*this, node);
+}
+
+std::optional<SolidValue> SubtreeEvaluation::solid() {
+  find_solids(root_);
+  if (failure_.empty()) return std::move(at(root_).solid);
+  leave_out_(root_, failure_);
+  return std::nullopt;
+}
+
+/// Finds the solid of a node, and on the way those of the nodes that it holds.
+void SubtreeEvaluation::find_solids(uint32_t node) {
+  failure_ = {};
+  const std::vector<uint32_t> nodes = solid_nodes(node);
+  for (auto next = nodes.rbegin(); next != nodes.rend() && failure_.empty(); ++next) {
+    csgcore::stop_point();
+    at(*next).solid = combined_solid(*next);
+  }
+}
+
+/// Returns the node, and those of solids below it without those of other projections, whose
+/// figures are known.
+std::vector<uint32_t> SubtreeEvaluation::solid_nodes(uint32_t node) const {
+  std::vector<uint32_t> result{node};
+  for (uint32_t i = node + 1; i < subtree_.end_of(node);) {
+    if (subtree_.syntax(i).kind == NodeKind::kProjection) {
+      i = subtree_.end_of(i);
+      continue;
+    }
+    if (at(i).presence == Presence::kSolid && at(i).dimension == 3) result.push_back(i);
+    ++i;
+  }
+  return result;
+}
+
+FigureOperations SubtreeEvaluation::section(uint32_t node) {
+  if (at(node).solid.is_empty()) return {};
+  Section section = section_of(at(node).solid);
+  if (section.has_open_mesh) {
+    problems_.add(subtree_.syntax(node),
+                  {": The given mesh is not closed", "it has no section: close it"});
+  } else if (section.operations.is_empty()) {
+    problems_.add(subtree_.syntax(node),
+                  {": Projection() failed", "nothing meets the plane z = 0"});
+  }
+  return std::move(section.operations);
+}
+
+FigureOperations SubtreeEvaluation::shadow(uint32_t node) {
+  Shadows shadows(sources_.pool);
+  std::optional<FigureOperations> result = shadows.of(at(node).solid);
+  if (!result) fail(shadows.failure());
+  return result.value_or(FigureOperations{});
+}
+
+void SubtreeEvaluation::fail(std::string_view why) {
+  if (failure_.empty()) failure_ = why;
+}
+
+std::vector<SolidValue> SubtreeEvaluation::solids_of_operands(uint32_t node) {
+  std::vector<SolidValue> result;
+  visit_operands(node, [&](uint32_t child) {
+    if (at(child).presence != Presence::kLeftOut) result.push_back(std::move(at(child).solid));
+  });
+  return result;
+}
+
+SolidValue SubtreeEvaluation::combined_solid(uint32_t node) {
+  const NodeRow& row = subtree_.row(node);
+  if (row.role == Role::kSolid) return solid_of_leaf(node);
+  return row.solid == nullptr ? combined(row.op, solids_of_operands(node)) : row.solid(*this, node);
+}
+
+SolidValue SubtreeEvaluation::solid_of_leaf(uint32_t node) {
+  std::optional<SolidShape> shape =
+      solid_shape(subtree_.data(node), subtree_.syntax(node), sources_, problems_);
+  if (!shape || (shape->faces != nullptr && shape->faces->is_empty())) return {};
+  SolidPart part = part_of(shape->primitive, shape->facets);
+  const int fragments =
+      keeps_facets(options_, shape->facets)
+          ? traits_of(shape->primitive.shape()).fragments(shape->primitive, shape->facets)
+          : 0;
+  if (fragments > 0 && sources_.polyhedra.facet(shape->primitive, fragments)) {
+    part.primitive = std::move(shape->primitive);
+  }
+  if (keeps_colors_) part.color = shape->color;
+  return value_of(std::move(part));
+}
+
+std::vector<SolidPart> SubtreeEvaluation::united(const SolidValue& value, int least_chords) {
+  SolidUnion outcome(sources_.pool, least_chords);
+  std::vector<SolidPart> parts = outcome.parts_of(value);
+  if (!outcome.failure().empty()) fail(outcome.failure());
+  return parts;
 }
 
 }  // namespace frontend

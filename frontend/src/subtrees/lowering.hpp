@@ -1,5 +1,5 @@
-// From a 2D subtree that OpenSCAD evaluates as a whole to primitives: an extrusion, a revolution,
-// or the plate that stands for a plane figure in the preview.
+// From what a subtree yields to primitives: an extrusion, a revolution, the plate that stands for a
+// plane figure in the preview, or a solid.
 //
 // Set operations commute with extruding and revolving: a point of space lies in the result where a
 // point of the plane that it is projected to lies in the figure. So they stay operations of the CSG
@@ -7,14 +7,16 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
+#include <vector>
 
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
 #include "heal/frames.hpp"
-#include "solids/figure_solids.hpp"
+#include "solids/solid_pool.hpp"
+#include "solids/solid_value.hpp"
 #include "subtrees/lowered_subtree.hpp"
-#include "subtrees/plane_evaluation.hpp"
-#include "subtrees/subtree.hpp"
+#include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
 
@@ -26,11 +28,24 @@ enum class Plate : uint8_t {
 
 /// `frame` is where the root stands. The root is solid, and none of 3D. Adds frames, and tells of
 /// what OpenSCAD tells: nothing is left then.
-LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, Plate plate,
-                             uint32_t frame, FrameTree& frames, FigureSolids& solids,
-                             NodeProblems& problems);
+LoweredSubtree lower_figures(SubtreeEvaluation& evaluation, Plate plate, uint32_t frame,
+                             FrameTree& frames);
 
 /// Makes a part of a plate that stands in that frame as thick as one that is subtracted.
 void thicken_plate(csgcore::Primitive& part, const csgcore::Affine& frame_to_world);
+
+/// The solid of a node, and where its primitives belong.
+struct PendingSolid {
+  uint32_t node;
+  uint32_t frame;
+  csgcore::Affine to_world;  // of the frame
+  uint32_t id;               // of its primitives
+  size_t primitives_before;  // of the design
+  SolidValue value;
+};
+
+/// Returns the primitives of each. Throws if it is stopped (throw_if_stopped).
+std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, SolidPool& pool,
+                                      const std::stop_token& stop);
 
 }  // namespace frontend

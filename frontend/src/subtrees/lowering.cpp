@@ -1,0 +1,146 @@
+#include "subtrees/lowering.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "csgcore/stop_scope.hpp"
+#include "solids/faceted_box.hpp"
+#include "solids/leaves.hpp"
+#include "subtrees/extrusions.hpp"
+#include "subtrees/figure_tree.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::CsgTreeBuilder;
+using csgcore::Op;
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+/// The preview draws a plane figure as a plate about z = 0, whose box it takes for flat.
+constexpr double kPlateThickness = 1;
+/// A plate that is subtracted is thicker by this factor.
+constexpr double kSubtractedPlateStretch = 1.1;
+
+/// Returns the box of figures in the plane z = 0.
+Box box_of(std::span<const Figure> figures, const Affine& root_to_world) {
+  Box box;
+  for (const Figure& figure : figures) {
+    const Rectangle bounds = bounds_of(figure);
+    if (bounds.empty()) continue;
+    box.merge(Vec3(bounds.min, 0));
+    box.merge(Vec3(bounds.max, 0));
+  }
+  return box.empty() ? box : mapped(root_to_world, box);
+}
+
+/// Returns a share of the figure's size that is below a pixel.
+double flat_thickness(const FigureTree& figures) {
+  constexpr double kShare = 0x1p-12;
+  const Rectangle bounds = positive_bounds(figures);
+  return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
+}
+
+/// What cannot be drawn at any scale is beyond double's numbers in places.
+std::vector<Primitive> pieces_of(const SolidPart& part, SolidPool& pool, bool& is_faceted) {
+  if (part.primitive) {
+    is_faceted = is_faceted || part.is_faceted;
+    return {*part.primitive};
+  }
+  const Generators& generators = part.body.generators;
+  if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
+  ConvexSolid solid = pool.solid(generators);
+  is_faceted = is_faceted || solid.is_faceted || part.body.is_faceted;
+  return std::move(solid.pieces);
+}
+
+LoweredSubtree lower_solid(const PendingSolid& solid, SolidPool& pool) {
+  const SolidValue& value = solid.value;
+  LoweredSubtree result;
+  const auto add_part = [&](CsgTreeBuilder& builder, uint32_t index) {
+    csgcore::stop_point();
+    const SolidPart& part = value.parts[index];
+    const Box box = mapped(solid.to_world, part.box);
+    builder.open(Op::kUnion);
+    for (Primitive& piece : pieces_of(part, pool, result.is_faceted)) {
+      piece.local_to_world = compose(solid.to_world, piece.local_to_world);
+      piece.id = solid.id;
+      piece.color = part.color;
+      builder.primitive(static_cast<uint32_t>(result.parts.size()));
+      result.parts.push_back({std::move(piece), solid.frame, box});
+    }
+    builder.close();
+  };
+  CsgTreeBuilder builder;
+  rebuild(value.tree.tokens(), builder, add_part);
+  result.solid = builder.finish();
+  result.has_operations = !value.is_union();
+  if (value.is_union()) result.box = mapped(solid.to_world, value.box());
+  return result;
+}
+
+}  // namespace
+
+LoweredSubtree lower_figures(SubtreeEvaluation& evaluation, Plate plate, uint32_t frame,
+                             FrameTree& frames) {
+  const uint32_t root = evaluation.root();
+  const FigureTree figures = figure_tree(evaluation, root, frame, frames);
+  const NodeRow& row = evaluation.row(root);
+  if (row.extruded != nullptr) return row.extruded({evaluation, root, figures, frame, frames});
+  const auto extruded = [&](const FigureTree& plane, double thickness) {
+    return extrude(plane, {-thickness / 2, thickness / 2, 1}, true, frames[frame].to_world, frames,
+                   evaluation.sources().figures);
+  };
+  if (plate == Plate::kFlat) {
+    // Without the operations: they may leave so little of large figures that a thin plate of it
+    // would be below the renderers' tolerance.
+    evaluation.find_all_figures();
+    const FigureTree rest = union_of(evaluation.figures(root), frame, figures.figures.front().id);
+    return extruded(rest, flat_thickness(rest));
+  }
+  LoweredSubtree result = extruded(figures, kPlateThickness);
+  // OpenSCAD's box is that of what the operations leave.
+  if (!result.is_union) {
+    evaluation.find_all_figures();
+    result.box = box_of(evaluation.figures(root), frames[frame].to_world);
+  }
+  return result;
+}
+
+void thicken_plate(Primitive& part, const Affine& frame_to_world) {
+  Affine to_frame;
+  to_frame.linear = csgcore::inverse(frame_to_world.linear);
+  to_frame.translation = -(to_frame.linear * frame_to_world.translation);
+  Affine stretched;
+  stretched.linear[2][2] = kSubtractedPlateStretch;
+  part.local_to_world =
+      compose(frame_to_world, compose(stretched, compose(to_frame, part.local_to_world)));
+}
+
+std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, SolidPool& pool,
+                                      const std::stop_token& stop) {
+  std::vector<LoweredSubtree> result(pending.size());
+  const auto lower = [&](size_t begin, size_t end) {
+    const csgcore::StopScope scope(&stop);
+    for (size_t i = begin; i < end; ++i) {
+      result[i] = lower_solid(pending[i], pool);
+    }
+  };
+  // Fewer take less than the threads take to start.
+  constexpr size_t kAtOnce = 8;
+  if (pending.size() <= kAtOnce) {
+    lower(0, pending.size());
+  } else {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, pending.size(), kAtOnce),
+                      [&](const auto& range) { lower(range.begin(), range.end()); });
+  }
+  return result;
+}
+
+}  // namespace frontend
