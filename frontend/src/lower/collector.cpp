@@ -546,7 +546,7 @@ void Collector::add_pending(const std::stop_token& stop) {
   std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
   std::vector<int> old_fragments = std::exchange(fragments, {});
   size_t count = old_primitives.size();
-  for (const LoweredSubtree& solid : lowered) count += solid.parts.size();
+  for (const LoweredSubtree& solid : lowered) count += solid.solid.parts.size();
   primitives.reserve(count);
   boxes.reserve(count);
   frame_of.reserve(count);
@@ -587,15 +587,16 @@ void Collector::add_pending(const std::stop_token& stop) {
 
 Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {
   leaf.is_plate = lowered.is_plate;
-  leaf.is_faceted = lowered.is_faceted;
+  leaf.is_faceted = std::ranges::any_of(lowered.solid.parts, &SolidPart::is_faceted);
   // OpenSCAD's final render resizes a solid with the marks of its cut faces.
   leaf.has_operations = lowered.has_operations;
   leaf.keeps_operations = options_.picture == PictureKind::kRendered && lowered.has_operations;
   csgcore::CsgTreeBuilder builder;
-  rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
-    LoweredSubtree::Part& part = lowered.parts[index];
+  rebuild(lowered.solid.tree.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
+    SolidPart& part = lowered.solid.parts[index];
+    part.primitive->color = part.color;
     const uint32_t primitive =
-        add_primitive(std::move(part.primitive), leaf.node, context, part.frame, part.box, 0);
+        add_primitive(std::move(*part.primitive), leaf.node, context, part.frame, part.box, 0);
     if (primitive == kNoPrimitive) return to.empty();
     to.primitive(primitive);
   });

@@ -91,10 +91,9 @@ LoweredSubtree sliced(const Extrusion& extrusion) {
   std::vector<Primitive> parts;
   if (!extrusion.is_operand) parts = std::move(solid->sheets);
   parts.push_back(std::move(solid->mesh));
-  LoweredSubtree result = in_place_of(extrusion, std::move(parts), solid->box,
-                                      compose(extrusion.to_world(), leaning(data.arguments)));
-  result.is_faceted = extrusion.is_operand && !data.is_faceted;
-  return result;
+  return in_place_of(extrusion, std::move(parts), solid->box,
+                     compose(extrusion.to_world(), leaning(data.arguments)),
+                     extrusion.is_operand && !data.is_faceted);
 }
 
 LoweredSubtree extruded(const Extrusion& extrusion) {
@@ -102,7 +101,7 @@ LoweredSubtree extruded(const Extrusion& extrusion) {
       extrusion.evaluation.data<LinearExtrudeNode>(extrusion.node).arguments;
   if (!(arguments.height > 0)) return {};
   const TwistedLayers layers = layers_of(arguments);
-  if (layers.is_twisted() && !are_round(extrusion.figures.figures, layers)) {
+  if (layers.is_twisted() && !are_round(extrusion.figures.parts, layers)) {
     return sliced(extrusion);
   }
   return extrude(

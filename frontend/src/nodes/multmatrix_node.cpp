@@ -46,7 +46,8 @@ SolidValue moved(SubtreeEvaluation& evaluation, uint32_t node) {
   SolidValue result = combined(csgcore::Op::kUnion, evaluation.solids_of_operands(node));
   const FileMatrix& file = evaluation.data<FileMatrix>(node);
   if (!is_affine(file)) return {};
-  result.map(heal(file).map);
+  const csgcore::Affine map = heal(file).map;
+  for (SolidPart& part : result.parts) part.map(map);
   return result;
 }
 

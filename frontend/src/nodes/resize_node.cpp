@@ -81,7 +81,7 @@ SolidValue resized_solid(SubtreeEvaluation& evaluation, uint32_t node) {
   const csgcore::Vec3 factors = factors_of(evaluation.data<ResizeArguments>(node), box.size(), 3);
   csgcore::Affine map;
   for (int axis = 0; axis < 3; ++axis) map.linear[axis][axis] = factors[axis];
-  result.map(map);
+  for (SolidPart& part : result.parts) part.map(map);
   return result;
 }
 

@@ -50,7 +50,7 @@ LoweredSubtree roofed_disc(const Disc& disc, const Extrusion& extrusion) {
   csgcore::Affine place;
   place.translation = center;
   return in_place_of(extrusion, {csgcore::make_frustum(0, disc.radius, disc.radius, 0, place)}, box,
-                     extrusion.to_world());
+                     extrusion.to_world(), false);
 }
 
 LoweredSubtree roofed(const Extrusion& extrusion) {
@@ -77,10 +77,9 @@ LoweredSubtree roofed(const Extrusion& extrusion) {
   if (roof->ends.empty()) return {};
   csgcore::Box box;
   for (const csgcore::Vec3& point : roof->points) box.merge(point);
-  LoweredSubtree result = in_place_of(extrusion, {roof_mesh(*roof)}, box, extrusion.to_world());
   const bool is_round = roof->bevel_count > 0 || !std::ranges::all_of(figures, is_polygonal);
-  result.is_faceted = extrusion.is_operand && is_round && !data.is_faceted;
-  return result;
+  return in_place_of(extrusion, {roof_mesh(*roof)}, box, extrusion.to_world(),
+                     extrusion.is_operand && is_round && !data.is_faceted);
 }
 
 }  // namespace

@@ -20,7 +20,6 @@ namespace {
 
 using csgcore::Affine;
 using csgcore::Box;
-using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
@@ -100,18 +99,18 @@ class Revolving {
     const double radius = is_left_ ? -reach->min.x : reach->max.x;
     sections_ = sections_of(data_.arguments, radius);
     box_ = mapped(to_world_, box_of_rings(*reach));
-    if (is_union(extrusion_.figures.tree)) result.box = box_;
+    if (extrusion_.figures.is_union()) result.box = box_;
     if (data_.is_faceted && sections_.count <= kMostSections) {
-      add_mesh(united(extrusion_.outcome()), result);
+      add_mesh(united(extrusion_.outcome()), false, result);
     } else if (extrusion_.is_operand && !sections_.is_closed()) {
       sections_.count =
           static_cast<int>(std::ceil(std::abs(sections_.angle) / 360 * kSmoothChords));
       const double size = glm::length(reach->max - reach->min);
-      add_mesh(united(extrusion_.outcome(), {kSmoothChords, kSmoothTolerance * size}), result);
-      result.is_faceted = true;
+      add_mesh(united(extrusion_.outcome(), {kSmoothChords, kSmoothTolerance * size}), true,
+               result);
     } else {
       add_figures(result);
-      if (!sections_.is_closed() && !result.solid.empty()) cut(*reach, radius, result);
+      if (!sections_.is_closed() && !result.solid.is_empty()) cut(*reach, radius, result);
     }
     return result;
   }
@@ -121,7 +120,7 @@ class Revolving {
   std::optional<Rectangle> reach_of_figures() const {
     const Rectangle reach = positive_bounds(extrusion_.figures);
     const bool are_on_one_side = !(reach.min.x < 0 && reach.max.x > 0);
-    const bool counts_sections = data_.is_faceted && !is_union(extrusion_.figures.tree);
+    const bool counts_sections = data_.is_faceted && !extrusion_.figures.is_union();
     if (are_on_one_side && !counts_sections) return reach;
     // What the operations leave may still be on one side, and tells the number of sections.
     const std::optional<SimplePolygons> outline = united(extrusion_.outcome());
@@ -157,19 +156,21 @@ class Revolving {
     if (is_left_) to_right.linear[0].x = -1;
     Affine place;
     if (is_left_) place = turned_about_z(180);
-    result.solid = tree_of_parts(
-        extrusion_.figures, result.parts,
-        [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
-          std::optional<Primitive> primitive = extrusion_.solids().revolved(
-              mapped(compose(to_right, placed.place()), *placed.figure));
-          if (!primitive) return std::nullopt;
-          primitive->local_to_world = compose(compose(to_world_, place), primitive->local_to_world);
-          return LoweredSubtree::Part{std::move(*primitive), extrusion_.frame, box_,
-                                      data_.arguments.facets};
-        });
+    result.solid = replaced<SolidPart>(extrusion_.figures, [&](const PlacedFigure& placed) {
+      std::vector<SolidPart> parts;
+      std::optional<Primitive> primitive =
+          extrusion_.solids().revolved(mapped(compose(to_right, placed.place()), *placed.figure));
+      if (!primitive) return parts;
+      primitive->local_to_world = compose(compose(to_world_, place), primitive->local_to_world);
+      parts.push_back(drawn_part(std::move(*primitive), extrusion_.frame, placed.id, box_));
+      parts.back().facets = data_.arguments.facets;
+      return parts;
+    });
   }
 
-  void add_mesh(std::optional<SimplePolygons> outline, LoweredSubtree& result) const {
+  /// `is_smooth`: the mesh stands for something round.
+  void add_mesh(std::optional<SimplePolygons> outline, bool is_smooth,
+                LoweredSubtree& result) const {
     if (!outline) note_crossings();
     if (!outline || outline->empty()) return;
     const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left_);
@@ -184,11 +185,9 @@ class Revolving {
       extrusion_.tell({" has no volume", "it is drawn as a thin sheet: give it more fragments"});
     }
     mesh.local_to_world = to_world_;
-    mesh.id = extrusion_.figures.figures.front().id;
-    result.parts.push_back({std::move(mesh), extrusion_.frame, *result.box});
-    CsgTreeBuilder builder;
-    builder.primitive(0);
-    result.solid = builder.finish();
+    result.solid =
+        value_of(drawn_part(std::move(mesh), extrusion_.frame, extrusion_.id(), *result.box));
+    result.solid.parts.front().is_faceted = is_smooth;
   }
 
   /// Leaves of a full turn what a partial one reaches.
@@ -201,15 +200,10 @@ class Revolving {
     wedge.local_to_world =
         compose(compose(to_world_, turned_about_z(is_convex ? first : first + angle)),
                 wedge.local_to_world);
-    wedge.id = result.parts.front().primitive.id;
-    CsgTreeBuilder builder;
-    builder.open(is_convex ? Op::kIntersection : Op::kDifference);
-    rebuild(result.solid.tokens(), builder,
-            [](CsgTreeBuilder& to, uint32_t index) { to.primitive(index); });
-    builder.primitive(static_cast<uint32_t>(result.parts.size()));
-    builder.close();
-    result.solid = builder.finish();
-    result.parts.push_back({std::move(wedge), extrusion_.frame, box_});
+    const uint32_t id = result.solid.parts.front().primitive->id;
+    std::vector<SolidValue> operands{std::move(result.solid)};
+    operands.push_back(value_of(drawn_part(std::move(wedge), extrusion_.frame, id, box_)));
+    result.solid = combined(is_convex ? Op::kIntersection : Op::kDifference, std::move(operands));
   }
 
   static Affine turned_about_z(double angle) {

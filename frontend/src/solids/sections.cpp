@@ -12,14 +12,12 @@
 #include "hulls/generator.hpp"
 #include "hulls/orthonormal.hpp"
 #include "plane/flattened_solid.hpp"
-#include "solids/leaves.hpp"
 #include "solids/triangles_of.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Affine;
-using csgcore::CsgTreeBuilder;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
@@ -133,17 +131,8 @@ std::vector<Figure> section_of_part(const SolidPart& part, bool& has_open_mesh) 
 
 Section section_of(const SolidValue& value) {
   Section result;
-  std::vector<Figure>& figures = result.operations.figures;
-  CsgTreeBuilder builder;
-  rebuild(value.tree.tokens(), builder, [&](CsgTreeBuilder& to, uint32_t part) {
-    to.open(csgcore::Op::kUnion);
-    for (Figure& figure : section_of_part(value.parts[part], result.has_open_mesh)) {
-      to.primitive(static_cast<uint32_t>(figures.size()));
-      figures.push_back(std::move(figure));
-    }
-    to.close();
-  });
-  result.operations.tree = builder.finish();
+  result.operations = replaced<Figure>(
+      value, [&](const SolidPart& part) { return section_of_part(part, result.has_open_mesh); });
   return result;
 }
 

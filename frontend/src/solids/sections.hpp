@@ -1,13 +1,13 @@
 // Sections of solids with the plane z = 0, as OpenSCAD's projection(cut = true) makes them.
 #pragma once
 
-#include "solids/figure_operations.hpp"
+#include "solids/operations.hpp"
 #include "solids/solid_value.hpp"
 
 namespace frontend {
 
 struct Section {
-  FigureOperations operations;
+  Operations<Figure> operations;
   bool has_open_mesh = false;  // such a mesh has no section
 };
 

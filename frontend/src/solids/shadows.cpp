@@ -73,7 +73,7 @@ void add_shadow(const Generator& generator, std::vector<Disc>& discs) {
   }
 }
 
-FigureOperations hull_shadow(const SolidPart& part) {
+Operations<Figure> hull_shadow(const SolidPart& part) {
   SupportSet support;
   part.add_support(support);
   std::vector<Disc> discs;
@@ -83,7 +83,7 @@ FigureOperations hull_shadow(const SolidPart& part) {
   if (discs.empty()) return {};
   const Figure hull = convex_hull(discs);
   if (bounds_of(hull).empty()) return {};
-  return union_of(std::vector<Figure>{hull});
+  return value_of(hull);
 }
 
 /// The corners of a polyhedron in the world, from the lowest on.
@@ -149,7 +149,7 @@ std::optional<Stretch> stretch_of(const SolidPart& part) {
 }
 
 /// The rings that an upright solid of revolution covers: each loop of its profile covers one.
-FigureOperations shadow_of_revolution(const csgcore::Profile& profile, const PlaneMap& plan) {
+Operations<Figure> shadow_of_revolution(const csgcore::Profile& profile, const PlaneMap& plan) {
   std::vector<Figure> rings;
   for (const csgcore::ProfileLoop& loop : profile.loops()) {
     const Rectangle bounds = bounds_of(Figure(Outline{{loop}, csgcore::FillRule::kEvenOdd}));
@@ -168,7 +168,7 @@ FigureOperations shadow_of_revolution(const csgcore::Profile& profile, const Pla
 constexpr size_t kMostShadowSections = 1 << 14;
 
 /// The shadow of what stands upright: between the heights of its parts it has few sections.
-std::optional<FigureOperations> shadow_of_upright(const SolidValue& value) {
+std::optional<Operations<Figure>> shadow_of_upright(const SolidValue& value) {
   std::vector<double> heights;
   for (const SolidPart& part : value.parts) {
     const std::optional<Stretch> stretch = stretch_of(part);
@@ -178,15 +178,15 @@ std::optional<FigureOperations> shadow_of_upright(const SolidValue& value) {
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   if (heights.size() * value.parts.size() > kMostShadowSections) return std::nullopt;
-  std::vector<FigureOperations> sections;
+  std::vector<Operations<Figure>> sections;
   for (size_t i = 1; i < heights.size(); ++i) {
     SolidValue lowered = value;
     Affine down;
     down.translation.z = -(heights[i - 1] + heights[i]) / 2;
-    lowered.map(down);
+    for (SolidPart& part : lowered.parts) part.map(down);
     sections.push_back(section_of(lowered).operations);
   }
-  return union_of(std::move(sections));
+  return combined(csgcore::Op::kUnion, std::move(sections));
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ void Shadows::fail(std::string_view why) {
   if (failure_.empty()) failure_ = why;
 }
 
-FigureOperations Shadows::of_part(const SolidPart& part) {
+Operations<Figure> Shadows::of_part(const SolidPart& part) {
   if (part.is_convex()) return hull_shadow(part);
   const Primitive& primitive = *part.primitive;
   const Affine& map = primitive.local_to_world;
@@ -207,8 +207,8 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
     if (const auto* const extrusion = straight_extrusion(primitive)) {
       const csgcore::Profile& profile = *extrusion->profile;
       plan.linear *= extrusion->scale_bottom;
-      return union_of(std::vector<Figure>{mapped(
-          plan, Outline{{profile.loops().begin(), profile.loops().end()}, profile.fill_rule()})});
+      return value_of(mapped(
+          plan, Outline{{profile.loops().begin(), profile.loops().end()}, profile.fill_rule()}));
     }
   }
   const bool is_open = primitive.mesh() && !primitive.mesh()->is_closed();
@@ -219,27 +219,28 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
     return {};
   }
   if (bounds_of(*shadow).empty()) return {};
-  return union_of(std::vector<Figure>{std::move(*shadow)});
+  return value_of(std::move(*shadow));
 }
 
-FigureOperations Shadows::of_operation(const SolidValue& value) {
+Operations<Figure> Shadows::of_operation(const SolidValue& value) {
   if (value.parts.size() == 1) return of_part(value.parts.front());
-  if (std::optional<FigureOperations> shadow = shadow_of_upright(value)) return std::move(*shadow);
+  if (std::optional<Operations<Figure>> shadow = shadow_of_upright(value))
+    return std::move(*shadow);
   SolidUnion outcome(pool_);
-  std::vector<FigureOperations> shadows;
+  std::vector<Operations<Figure>> shadows;
   for (const SolidPart& part : outcome.parts_of(value)) shadows.push_back(of_part(part));
   if (!outcome.failure().empty()) fail(outcome.failure());
-  return union_of(std::move(shadows));
+  return combined(csgcore::Op::kUnion, std::move(shadows));
 }
 
-std::optional<FigureOperations> Shadows::of(const SolidValue& value) {
-  if (value.is_empty()) return FigureOperations{};
-  std::vector<FigureOperations> shadows;
+std::optional<Operations<Figure>> Shadows::of(const SolidValue& value) {
+  if (value.is_empty()) return Operations<Figure>{};
+  std::vector<Operations<Figure>> shadows;
   for (const SolidValue& operand : operands_of_union(value)) {
     shadows.push_back(of_operation(operand));
     if (!failure_.empty()) return std::nullopt;
   }
-  return union_of(std::move(shadows));
+  return combined(csgcore::Op::kUnion, std::move(shadows));
 }
 
 }  // namespace frontend

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "solids/figure_operations.hpp"
+#include "solids/operations.hpp"
 #include "solids/solid_pool.hpp"
 #include "solids/solid_value.hpp"
 
@@ -18,12 +18,12 @@ class Shadows {
   /// Returns the shadow; nothing if it cannot be found: failure() says why. The shadow of a union
   /// is that of its operands. Of differences and intersections it is exact where all their operands
   /// stand upright between two heights.
-  std::optional<FigureOperations> of(const SolidValue& value);
+  std::optional<Operations<Figure>> of(const SolidValue& value);
   std::string_view failure() const { return failure_; }
 
  private:
-  FigureOperations of_operation(const SolidValue& value);
-  FigureOperations of_part(const SolidPart& part);
+  Operations<Figure> of_operation(const SolidValue& value);
+  Operations<Figure> of_part(const SolidPart& part);
   void fail(std::string_view why);
 
   SolidPool& pool_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <utility>
 
@@ -109,52 +108,6 @@ SolidPart part_of(SupportSet body, const Box& box) {
   part.box = box.empty() ? box_of(body.generators) : box;
   part.body = std::move(body);
   return part;
-}
-
-bool SolidValue::is_union() const { return frontend::is_union(tree); }
-
-Box SolidValue::box() const {
-  Box result;
-  for (const SolidPart& part : parts) result.merge(part.box);
-  return result;
-}
-
-void SolidValue::map(const Affine& map) {
-  for (SolidPart& part : parts) part.map(map);
-}
-
-SolidValue value_of(SolidPart part) {
-  std::vector<SolidPart> parts;
-  parts.push_back(std::move(part));
-  return union_of(std::move(parts));
-}
-
-SolidValue union_of(std::vector<SolidPart> parts) {
-  CsgTreeBuilder builder;
-  for (uint32_t i = 0; i < parts.size(); ++i) builder.primitive(i);
-  return {std::move(parts), builder.finish()};
-}
-
-SolidValue combined(Op op, std::vector<SolidValue> operands) {
-  if (operands.empty()) return {};
-  if (operands.size() == 1) return std::move(operands.front());
-  SolidValue result;
-  CsgTreeBuilder builder;
-  builder.open(op);
-  for (SolidValue& operand : operands) {
-    if (operand.is_empty()) {
-      builder.empty();
-      continue;
-    }
-    const auto first = static_cast<uint32_t>(result.parts.size());
-    rebuild(operand.tree.tokens(), builder,
-            [first](CsgTreeBuilder& to, uint32_t part) { to.primitive(first + part); });
-    result.parts.insert(result.parts.end(), std::make_move_iterator(operand.parts.begin()),
-                        std::make_move_iterator(operand.parts.end()));
-  }
-  builder.close();
-  result.tree = builder.finish();
-  return result;
 }
 
 std::vector<SolidValue> operands_of_union(const SolidValue& value) {

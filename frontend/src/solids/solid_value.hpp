@@ -5,21 +5,23 @@
 #include <optional>
 #include <vector>
 
-#include "csgcore/csg_tree.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
 #include "hulls/generator.hpp"
+#include "solids/operations.hpp"
 
 namespace frontend {
 
 /// A part of a solid: a primitive, or the hull of generators.
 struct SolidPart {
   std::optional<csgcore::Primitive> primitive{};
+  uint32_t frame = 0;               // FrameTree; of what is drawn
   csgcore::FacetSettings facets{};  // of a primitive: OpenSCAD's
   bool is_faceted = false;          // of a primitive: its facets stand for something round
   SupportSet body{};                // if there is no primitive
-  /// The box of the corners that OpenSCAD has of it, in the coordinates around it.
+  /// The box of the corners that OpenSCAD has of it, in the coordinates around it: the world's, of
+  /// what is drawn.
   csgcore::Box box{};
   /// What color() within the node that is evaluated gives it. Hulls and sums have none.
   std::optional<csgcore::Color> color{};
@@ -38,24 +40,8 @@ SolidPart faceted_part(csgcore::Primitive mesh, bool is_smooth);
 /// Returns the part that is the hull of the generators. Without a box it is theirs.
 SolidPart part_of(SupportSet body, const csgcore::Box& box = {});
 
-/// A CSG tree over parts, whose primitives' numbers are the parts'.
-struct SolidValue {
-  std::vector<SolidPart> parts;
-  csgcore::CsgTree tree;
+using SolidValue = Operations<SolidPart>;
 
-  bool is_empty() const { return tree.empty(); }
-  /// Returns whether it is the union of its parts.
-  bool is_union() const;
-  /// The union of the parts' boxes.
-  csgcore::Box box() const;
-  void map(const csgcore::Affine& map);
-};
-
-SolidValue value_of(SolidPart part);
-/// Returns the union of the parts.
-SolidValue union_of(std::vector<SolidPart> parts);
-/// Returns what the operation makes of the operands, of which some may be empty.
-SolidValue combined(csgcore::Op op, std::vector<SolidValue> operands);
 /// Returns values whose union the value is, of which none is a union of several parts.
 std::vector<SolidValue> operands_of_union(const SolidValue& value);
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "solids/faceted_box.hpp"
-#include "solids/leaves.hpp"
 
 namespace frontend {
 namespace {
@@ -26,6 +25,15 @@ Affine scaled_place(const PlaneMap& map, const Layers& layers) {
 
 }  // namespace
 
+SolidPart drawn_part(Primitive primitive, uint32_t frame, uint32_t id, const Box& box) {
+  SolidPart part;
+  part.primitive = std::move(primitive);
+  part.primitive->id = id;
+  part.frame = frame;
+  part.box = box;
+  return part;
+}
+
 std::vector<Figure> Extrusion::outcome() const {
   if (!is_operand) evaluation.find_all_figures();
   return evaluation.figures_of_operands(node);
@@ -36,69 +44,56 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
   LoweredSubtree result;
   result.is_plate = is_plate;
   Box whole;  // in the root's coordinates
-  result.solid = tree_of_parts(
-      figures, result.parts,
-      [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
-        std::optional<Primitive> primitive =
-            solids.extruded(*placed.figure, layers, placed.profile);
-        if (!primitive) return std::nullopt;
-        const bool is_upright = layers.top_scale == 1 && layers.lean == Vec2(0.0);
-        const Affine to_world =
-            is_upright ? compose(frames[placed.frame].to_world, in_space(placed.place_in_node))
-                       : compose(root_to_world, scaled_place(placed.place(), layers));
-        primitive->local_to_world = compose(to_world, primitive->local_to_world);
-        const Rectangle bounds = faceted_bounds(placed);
-        Box box;
-        for (const Vec2& corner : {bounds.min, bounds.max}) {
-          box.merge(Vec3(corner + layers.z_min * layers.lean, is_plate ? 0 : layers.z_min));
-          box.merge(Vec3(layers.top_scale * corner + layers.z_max * layers.lean,
-                         is_plate ? 0 : layers.z_max));
-        }
-        whole.merge(box);
-        csgcore::FacetSettings facets;
-        facets.fn = placed.fragments;
-        return LoweredSubtree::Part{std::move(*primitive), placed.frame, mapped(root_to_world, box),
-                                    facets};
-      });
-  result.is_union = is_union(figures.tree) && !whole.empty();
+  result.solid = replaced<SolidPart>(figures, [&](const PlacedFigure& placed) {
+    std::vector<SolidPart> parts;
+    std::optional<Primitive> primitive = solids.extruded(*placed.figure, layers, placed.profile);
+    if (!primitive) return parts;
+    const bool is_upright = layers.top_scale == 1 && layers.lean == Vec2(0.0);
+    const Affine to_world =
+        is_upright ? compose(frames[placed.frame].to_world, in_space(placed.place_in_node))
+                   : compose(root_to_world, scaled_place(placed.place(), layers));
+    primitive->local_to_world = compose(to_world, primitive->local_to_world);
+    const Rectangle bounds = faceted_bounds(placed);
+    Box box;
+    for (const Vec2& corner : {bounds.min, bounds.max}) {
+      box.merge(Vec3(corner + layers.z_min * layers.lean, is_plate ? 0 : layers.z_min));
+      box.merge(Vec3(layers.top_scale * corner + layers.z_max * layers.lean,
+                     is_plate ? 0 : layers.z_max));
+    }
+    whole.merge(box);
+    parts.push_back(
+        drawn_part(std::move(*primitive), placed.frame, placed.id, mapped(root_to_world, box)));
+    parts.back().facets.fn = placed.fragments;
+    return parts;
+  });
+  result.is_union = figures.is_union() && !whole.empty();
   if (result.is_union) result.box = mapped(root_to_world, whole);
   return result;
 }
 
 LoweredSubtree in_place_of(const Extrusion& extrusion, std::vector<Primitive> solids,
-                           const Box& box, const Affine& to_world) {
+                           const Box& box, const Affine& to_world, bool is_smooth) {
   LoweredSubtree result;
   result.box = mapped(to_world, box);
-  csgcore::CsgTreeBuilder builder;
+  std::vector<SolidPart> parts;
   for (Primitive& solid : solids) {
-    builder.primitive(static_cast<uint32_t>(result.parts.size()));
     solid.local_to_world = compose(to_world, solid.local_to_world);
-    solid.id = extrusion.figures.figures.front().id;
-    result.parts.push_back({std::move(solid), extrusion.frame, *result.box});
+    parts.push_back(drawn_part(std::move(solid), extrusion.frame, extrusion.id(), *result.box));
+    parts.back().is_faceted = is_smooth;
   }
-  result.solid = builder.finish();
+  result.solid = union_of(std::move(parts));
   return result;
 }
 
 SolidValue solid_of_extrusion(SubtreeEvaluation& evaluation, uint32_t node) {
   FrameTree frames;
   FigureTree figures = figure_tree(evaluation, node, 0, frames);
-  if (figures.figures.empty()) return {};
+  if (figures.parts.empty()) return {};
   // What is needed is the surface: operations are done in the plane.
-  if (!is_union(figures.tree)) {
+  if (!figures.is_union()) {
     figures = union_of(evaluation.figures_of_operands(node), 0, evaluation.subtree().id(node));
   }
-  LoweredSubtree lowered =
-      evaluation.row(node).extruded({evaluation, node, figures, 0, frames, true});
-  SolidValue result{{}, std::move(lowered.solid)};
-  for (LoweredSubtree::Part& part : lowered.parts) {
-    SolidPart& own = result.parts.emplace_back();
-    own.primitive = std::move(part.primitive);
-    own.facets = part.facets;
-    own.is_faceted = lowered.is_faceted;
-    own.box = part.box;
-  }
-  return result;
+  return evaluation.row(node).extruded({evaluation, node, figures, 0, frames, true}).solid;
 }
 
 }  // namespace frontend

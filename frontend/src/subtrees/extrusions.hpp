@@ -26,6 +26,7 @@ struct Extrusion {
   const Node& syntax() const { return evaluation.subtree().syntax(node); }
   FigureSolids& solids() const { return evaluation.sources().figures; }
   const csgcore::Affine& to_world() const { return frames[frame].to_world; }
+  uint32_t id() const { return figures.parts.front().id; }
   void tell(NodeProblems::Description problem) const {
     evaluation.problems().add(syntax(), std::move(problem));
   }
@@ -39,10 +40,15 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
                        const csgcore::Affine& root_to_world, const FrameTree& frames,
                        FigureSolids& solids);
 
+/// Returns a part of an extrusion, in the world.
+SolidPart drawn_part(csgcore::Primitive primitive, uint32_t frame, uint32_t id,
+                     const csgcore::Box& box);
+
 /// Returns the union of solids that the extrusion has become, in coordinates of `to_world`, as is
-/// the box around them.
+/// the box around them. `is_smooth`: they stand for something round.
 LoweredSubtree in_place_of(const Extrusion& extrusion, std::vector<csgcore::Primitive> solids,
-                           const csgcore::Box& box, const csgcore::Affine& to_world);
+                           const csgcore::Box& box, const csgcore::Affine& to_world,
+                           bool is_smooth);
 
 /// Returns the solid that `extruded` of the node's row makes.
 SolidValue solid_of_extrusion(SubtreeEvaluation& evaluation, uint32_t node);

@@ -78,10 +78,10 @@ class FigureTreeWriter {
   }
 
   void add_operations(uint32_t node) {
-    const FigureOperations& operations = evaluation_.projection(node);
+    const Operations<Figure>& operations = evaluation_.projection(node);
     builder_.open(Op::kUnion);
     rebuild(operations.tree.tokens(), builder_,
-            [&](CsgTreeBuilder&, uint32_t index) { add(operations.figures[index], node, 0); });
+            [&](CsgTreeBuilder&, uint32_t index) { add(operations.parts[index], node, 0); });
     builder_.close();
   }
 
@@ -129,14 +129,11 @@ FigureTree figure_tree(const SubtreeEvaluation& evaluation, uint32_t node, uint3
 }
 
 FigureTree union_of(std::span<const Figure> figures, uint32_t frame, uint32_t id) {
-  FigureTree result;
-  CsgTreeBuilder builder;
+  std::vector<PlacedFigure> parts;
   for (const Figure& figure : figures) {
-    builder.primitive(static_cast<uint32_t>(result.figures.size()));
-    result.figures.push_back({std::make_shared<const Figure>(figure), {}, frame, id});
+    parts.push_back({std::make_shared<const Figure>(figure), {}, frame, id});
   }
-  result.tree = builder.finish();
-  return result;
+  return union_of(std::move(parts));
 }
 
 Rectangle faceted_bounds(const PlacedFigure& placed) {
@@ -154,7 +151,7 @@ Rectangle faceted_bounds(const PlacedFigure& placed) {
 
 Rectangle positive_bounds(const FigureTree& figures) {
   std::vector<Box> boxes;
-  for (const PlacedFigure& placed : figures.figures) {
+  for (const PlacedFigure& placed : figures.parts) {
     const Rectangle bounds = bounds_of(placed.place(), *placed.figure);
     Box& box = boxes.emplace_back();
     if (bounds.empty()) continue;

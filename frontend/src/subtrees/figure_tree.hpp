@@ -9,12 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "csgcore/csg_tree.hpp"
+#include "csgcore/profile.hpp"
 #include "heal/frames.hpp"
 #include "plane/figure.hpp"
 #include "plane/plane_map.hpp"
-#include "solids/leaves.hpp"
-#include "subtrees/lowered_subtree.hpp"
+#include "solids/operations.hpp"
 #include "subtrees/subtree_evaluation.hpp"
 
 namespace frontend {
@@ -34,10 +33,7 @@ struct PlacedFigure {
 };
 
 /// The subtree as operations on figures.
-struct FigureTree {
-  std::vector<PlacedFigure> figures;
-  csgcore::CsgTree tree;  // over their indices
-};
+using FigureTree = Operations<PlacedFigure>;
 
 /// Returns the operations of a node of the subtree, which stands in `frame`; adds frames. Of an
 /// extrusion they are those of its children. The places lead to the plane of that node.
@@ -52,23 +48,5 @@ Rectangle faceted_bounds(const PlacedFigure& placed);
 
 /// Returns the bounds of what is not subtracted.
 Rectangle positive_bounds(const FigureTree& figures);
-
-/// Gives each figure its solid, where it has one, and writes the tree over those.
-template <typename Make>
-csgcore::CsgTree tree_of_parts(const FigureTree& figures, std::vector<LoweredSubtree::Part>& parts,
-                               const Make& make) {
-  csgcore::CsgTreeBuilder builder;
-  rebuild(figures.tree.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
-    std::optional<LoweredSubtree::Part> part = make(figures.figures[index]);
-    if (!part) {
-      to.empty();
-      return;
-    }
-    part->primitive.id = figures.figures[index].id;
-    to.primitive(static_cast<uint32_t>(parts.size()));
-    parts.push_back(std::move(*part));
-  });
-  return builder.finish();
-}
 
 }  // namespace frontend

@@ -9,7 +9,6 @@
 
 #include "csgcore/stop_scope.hpp"
 #include "solids/faceted_box.hpp"
-#include "solids/leaves.hpp"
 #include "subtrees/extrusions.hpp"
 #include "subtrees/figure_tree.hpp"
 
@@ -18,8 +17,6 @@ namespace {
 
 using csgcore::Affine;
 using csgcore::Box;
-using csgcore::CsgTreeBuilder;
-using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
@@ -47,41 +44,43 @@ double flat_thickness(const FigureTree& figures) {
   return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
 }
 
-/// What cannot be drawn at any scale is beyond double's numbers in places.
-std::vector<Primitive> pieces_of(const SolidPart& part, SolidPool& pool, bool& is_faceted) {
-  if (part.primitive) {
-    is_faceted = is_faceted || part.is_faceted;
-    return {*part.primitive};
-  }
+/// Returns the primitives of a part. What cannot be drawn at any scale is beyond double's numbers
+/// in places.
+std::vector<SolidPart> pieces_of(const SolidPart& part, SolidPool& pool) {
+  if (part.primitive) return {part};
   const Generators& generators = part.body.generators;
   if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
   ConvexSolid solid = pool.solid(generators);
-  is_faceted = is_faceted || solid.is_faceted || part.body.is_faceted;
-  return std::move(solid.pieces);
+  std::vector<SolidPart> result;
+  for (Primitive& piece : solid.pieces) {
+    SolidPart& own = result.emplace_back();
+    own.primitive = std::move(piece);
+    own.is_faceted = solid.is_faceted || part.body.is_faceted;
+    own.box = part.box;
+    own.color = part.color;
+  }
+  return result;
 }
 
 LoweredSubtree lower_solid(const PendingSolid& solid, SolidPool& pool) {
-  const SolidValue& value = solid.value;
   LoweredSubtree result;
-  const auto add_part = [&](CsgTreeBuilder& builder, uint32_t index) {
+  result.solid = replaced<SolidPart>(solid.value, [&](const SolidPart& part) {
     csgcore::stop_point();
-    const SolidPart& part = value.parts[index];
-    const Box box = mapped(solid.to_world, part.box);
-    builder.open(Op::kUnion);
-    for (Primitive& piece : pieces_of(part, pool, result.is_faceted)) {
-      piece.local_to_world = compose(solid.to_world, piece.local_to_world);
-      piece.id = solid.id;
-      piece.color = part.color;
-      builder.primitive(static_cast<uint32_t>(result.parts.size()));
-      result.parts.push_back({std::move(piece), solid.frame, box});
+    std::vector<SolidPart> pieces = pieces_of(part, pool);
+    for (SolidPart& piece : pieces) {
+      piece.primitive->local_to_world = compose(solid.to_world, piece.primitive->local_to_world);
+      piece.primitive->id = solid.id;
+      piece.frame = solid.frame;
+      piece.box = mapped(solid.to_world, piece.box);
     }
-    builder.close();
-  };
-  CsgTreeBuilder builder;
-  rebuild(value.tree.tokens(), builder, add_part);
-  result.solid = builder.finish();
-  result.has_operations = !value.is_union();
-  if (value.is_union()) result.box = mapped(solid.to_world, value.box());
+    return pieces;
+  });
+  result.has_operations = !solid.value.is_union();
+  if (!result.has_operations) {
+    result.box.emplace();
+    for (const SolidPart& part : solid.value.parts) result.box->merge(part.box);
+    result.box = mapped(solid.to_world, *result.box);
+  }
   return result;
 }
 
@@ -101,7 +100,7 @@ LoweredSubtree lower_figures(SubtreeEvaluation& evaluation, Plate plate, uint32_
     // Without the operations: they may leave so little of large figures that a thin plate of it
     // would be below the renderers' tolerance.
     evaluation.find_all_figures();
-    const FigureTree rest = union_of(evaluation.figures(root), frame, figures.figures.front().id);
+    const FigureTree rest = union_of(evaluation.figures(root), frame, figures.parts.front().id);
     return extruded(rest, flat_thickness(rest));
   }
   LoweredSubtree result = extruded(figures, kPlateThickness);

@@ -13,13 +13,13 @@
 #include "fonts/design_fonts.hpp"
 #include "frontend/import_options.hpp"
 #include "plane/figure.hpp"
+#include "solids/solid_value.hpp"
 
 namespace frontend {
 
 class SubtreeEvaluation;
 struct Extrusion;
 struct LoweredSubtree;
-struct SolidValue;
 
 /// What the preview does with a node.
 enum class Role : uint8_t {

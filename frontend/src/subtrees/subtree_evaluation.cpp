@@ -232,7 +232,7 @@ std::vector<uint32_t> SubtreeEvaluation::solid_nodes(uint32_t node) const {
   return result;
 }
 
-FigureOperations SubtreeEvaluation::section(uint32_t node) {
+Operations<Figure> SubtreeEvaluation::section(uint32_t node) {
   if (at(node).solid.is_empty()) return {};
   Section section = section_of(at(node).solid);
   if (section.has_open_mesh) {
@@ -245,11 +245,11 @@ FigureOperations SubtreeEvaluation::section(uint32_t node) {
   return std::move(section.operations);
 }
 
-FigureOperations SubtreeEvaluation::shadow(uint32_t node) {
+Operations<Figure> SubtreeEvaluation::shadow(uint32_t node) {
   Shadows shadows(sources_.pool);
-  std::optional<FigureOperations> result = shadows.of(at(node).solid);
+  std::optional<Operations<Figure>> result = shadows.of(at(node).solid);
   if (!result) fail(shadows.failure());
-  return result.value_or(FigureOperations{});
+  return result.value_or(Operations<Figure>{});
 }
 
 void SubtreeEvaluation::fail(std::string_view why) {

@@ -12,7 +12,7 @@
 #include "plane/figure.hpp"
 #include "plane/outlines.hpp"
 #include "plane/plane_map.hpp"
-#include "solids/figure_operations.hpp"
+#include "solids/operations.hpp"
 #include "solids/solid_shape.hpp"
 #include "solids/solid_union.hpp"
 #include "solids/solid_value.hpp"
@@ -75,7 +75,7 @@ class SubtreeEvaluation {
   /// Returns figures under that matrix.
   std::vector<Figure> moved(std::vector<Figure> figures, uint32_t node) const;
   /// Returns what a projection node that is solid makes, in the coordinates around it.
-  const FigureOperations& projection(uint32_t node) const { return at(node).projection; }
+  const Operations<Figure>& projection(uint32_t node) const { return at(node).projection; }
 
   // In space:
   /// Returns the root's solid in its own coordinates: a union, or what resize() has of a tree.
@@ -98,7 +98,7 @@ class SubtreeEvaluation {
     bool has_figures = false;
     std::vector<Figure> figures;
     HealedMatrix matrix;
-    FigureOperations projection;
+    Operations<Figure> projection;
     SolidValue solid;  // until the node around it takes it
   };
 
@@ -120,8 +120,8 @@ class SubtreeEvaluation {
   std::vector<uint32_t> solid_nodes(uint32_t node) const;
   SolidValue combined_solid(uint32_t node);
   SolidValue solid_of_leaf(uint32_t node);
-  FigureOperations section(uint32_t node);
-  FigureOperations shadow(uint32_t node);
+  Operations<Figure> section(uint32_t node);
+  Operations<Figure> shadow(uint32_t node);
 
   const Subtree& subtree_;
   const uint32_t root_;
