@@ -22,16 +22,12 @@ class Composer {
 
   /// OpenSCAD's preview and its final render.
   void compose_preview(Design& design, PictureKind picture) {
-    const bool has_layers = picture != PictureKind::kRendered && has_translucent(design.model);
-    if (has_layers) add_products(design.model, Layer::Kind::kModel);
-    for (const LeafTree& part : design.background) add_products(part, Layer::Kind::kBackground);
-    for (const LeafTree& part : design.highlight) add_products(part, Layer::Kind::kHighlight);
-    if (leaves_.has_compound()) {
-      set_cut_faces(design.model);
-      for (const LeafTree& part : design.background) set_cut_faces(part);
-      for (const LeafTree& part : design.highlight) set_cut_faces(part);
+    for (const auto& [kind, tree] : design.parts) {
+      const bool is_opaque = picture == PictureKind::kRendered || !has_translucent(tree);
+      if (kind != Layer::Kind::kModel || !is_opaque) add_products(tree, kind);
+      if (leaves_.has_compound()) set_cut_faces(tree);
     }
-    scene_.model = leaves_.expanded(std::move(design.model));
+    scene_.model = leaves_.expanded(std::move(design.parts.front().tree));
   }
 
   /// Every leaf of a product whole. Opaque leaves that follow one another are drawn at once.
@@ -44,7 +40,7 @@ class Composer {
       opaque.clear();
     };
     bool has_translucent = false, has_model = false;
-    for (const LeafUse& use : leaves_of_products(design.model)) {
+    for (const LeafUse& use : leaves_of_products(design.model())) {
       set_cut_faces(use);
       all.push_back(use.leaf);
       if (use.is_subtracted && is_plate(use.leaf)) hidden_.insert(use.leaf);
@@ -64,12 +60,7 @@ class Composer {
     // Without a layer of the model, all of it would be drawn before the others.
     if (has_translucent && !has_model) layers.insert(layers.begin(), Layer{});
     if (has_translucent) scene_.layers = std::move(layers);
-    for (const LeafTree& part : design.background) {
-      add_leaves(design, part, Layer::Kind::kBackground);
-    }
-    for (const LeafTree& part : design.highlight) {
-      add_leaves(design, part, Layer::Kind::kHighlight);
-    }
+    for (const DesignPart& part : std::span(design.parts).subspan(1)) add_leaves(design, part);
   }
 
   /// The final render is one mesh.
@@ -163,10 +154,10 @@ class Composer {
     return result;
   }
 
-  void add_leaves(const Design& design, const LeafTree& part, Layer::Kind kind) {
-    for (const LeafUse& use : leaves_of_products(part)) {
+  void add_leaves(const Design& design, const DesignPart& part) {
+    for (const LeafUse& use : leaves_of_products(part.tree)) {
       if (hidden_.contains(use.leaf)) continue;
-      const Layer::Kind own = design.is_highlighted(use.leaf) ? Layer::Kind::kHighlight : kind;
+      const Layer::Kind own = design.is_highlighted(use.leaf) ? Layer::Kind::kHighlight : part.kind;
       // OpenSCAD draws the faces of these parts in their order: those of a plate from below.
       scene_.layers.push_back(
           {own, is_plate(use.leaf), leaves_.expanded(union_of({&use.leaf, 1}))});
@@ -263,13 +254,10 @@ bool compose(Design design, const Leaves& leaves, std::span<const Box> boxes, Pi
 
 Box view_box(const Design& design, std::span<const Box> boxes, bool intersects_boxes) {
   Box result;
-  const auto add = [&](const LeafTree& tree) {
+  for (const auto& [kind, tree] : design.parts) {
     result.merge(intersects_boxes ? box_of_products(tree, boxes)
                                   : box_of_positive_leaves(tree, boxes));
-  };
-  add(design.model);
-  for (const LeafTree& part : design.background) add(part);
-  for (const LeafTree& part : design.highlight) add(part);
+  }
   return result;
 }
 

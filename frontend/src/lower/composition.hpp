@@ -12,13 +12,18 @@
 
 namespace frontend {
 
-/// A design's trees over its leaves.
+/// A tree over leaves that is drawn by itself.
+struct DesignPart {
+  csgcore::Layer::Kind kind;
+  LeafTree tree;
+};
+
 struct Design {
-  LeafTree model;
-  std::vector<LeafTree> background;          // one for each `%` part, in file order
-  std::vector<LeafTree> highlight;           // one for each `#` part, in file order
+  /// The model, which may be empty, then each `%` part and each `#` part, in file order.
+  std::vector<DesignPart> parts;
   std::vector<uint32_t> highlighted_leaves;  // that are parts of `#` nodes, ascending
 
+  const LeafTree& model() const { return parts.front().tree; }
   bool is_highlighted(uint32_t leaf) const;
 };
 

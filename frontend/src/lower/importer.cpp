@@ -45,9 +45,11 @@ class Emitter {
 
   Design design() {
     Design design;
-    design.model = emit(collected_.selected, kNone, modifiers_.keeps_highlighted);
-    design.background = parts(modifiers_.background);
-    design.highlight = parts(modifiers_.highlight);
+    using Kind = csgcore::Layer::Kind;
+    LeafTree model = emit(collected_.selected, kNone, modifiers_.keeps_highlighted);
+    design.parts.push_back({Kind::kModel, std::move(model)});
+    add_parts(Kind::kBackground, modifiers_.background, design);
+    add_parts(Kind::kHighlight, modifiers_.highlight, design);
     design.highlighted_leaves = std::move(highlighted_leaves_);
     std::sort(design.highlighted_leaves.begin(), design.highlighted_leaves.end());
     return design;
@@ -64,13 +66,11 @@ class Emitter {
     uint32_t operands = 0;  // so far
   };
 
-  std::vector<LeafTree> parts(std::span<const uint32_t> roots) {
-    std::vector<LeafTree> trees;
+  void add_parts(csgcore::Layer::Kind kind, std::span<const uint32_t> roots, Design& design) {
     for (const uint32_t root : roots) {
       LeafTree tree = emit({root, tree_.nodes[root].end}, root, true);
-      if (!tree.empty()) trees.push_back(std::move(tree));
+      if (!tree.empty()) design.parts.push_back({kind, std::move(tree)});
     }
-    return trees;
   }
 
   /// The nodes of the range as operands of a union. `root` is taken whatever its modifiers say.
@@ -368,16 +368,13 @@ void set_flat_outlines(const Collector& collected, PictureKind picture, Imported
 
 /// A leaf that several trees name counts once for each.
 void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& design) {
-  const auto count = [&](const LeafTree& tree) {
+  for (const auto& [kind, tree] : trees.parts) {
     for (const csgcore::CsgToken& token : tree.tokens()) {
       if (!token.is_primitive) continue;
       ++design.leaves;
       if (leaves.is_compound(token.value)) ++design.compound_leaves;
     }
-  };
-  count(trees.model);
-  for (const LeafTree& part : trees.background) count(part);
-  for (const LeafTree& part : trees.highlight) count(part);
+  }
 }
 
 /// Makes the design of what the collector holds, which it frees as soon as it can: of a large
@@ -423,7 +420,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
     thicken_cutting_plates(options.picture, trees, collected, leaves, boxes);
   }
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
-    design.view_box = box_of_result(collected, leaves.expanded(trees.model), design.view_box);
+    design.view_box = box_of_result(collected, leaves.expanded(trees.model()), design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);

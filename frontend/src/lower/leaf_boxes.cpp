@@ -82,14 +82,11 @@ class BoxFinder {
   /// Returns by leaf whether --viewall looks at its box: not at those of what is subtracted.
   std::vector<bool> looked_at(const Design& trees, std::span<const Box> boxes) const {
     std::vector<bool> result(leaves_.size());
-    const auto mark = [&](const LeafTree& tree) {
+    for (const auto& [kind, tree] : trees.parts) {
       for (const LeafUse& use : uses_of_leaves(tree, boxes)) {
         if (!use.is_subtracted) result[use.leaf] = true;
       }
-    };
-    mark(trees.model);
-    for (const LeafTree& part : trees.background) mark(part);
-    for (const LeafTree& part : trees.highlight) mark(part);
+    }
     return result;
   }
 

@@ -19,12 +19,9 @@ class PlateThickener {
       : collected_(collected), leaves_(leaves), boxes_(boxes) {}
 
   void thicken(Design& trees, bool makes_copies) {
-    std::vector<LeafTree*> all{&trees.model};
-    for (LeafTree& part : trees.background) all.push_back(&part);
-    for (LeafTree& part : trees.highlight) all.push_back(&part);
     std::vector<bool> cuts(collected_.primitives.size());  // by the first primitive of a leaf
-    for (const LeafTree* tree : all) {
-      for (const LeafUse& use : uses_of_leaves(*tree, boxes_.seen)) {
+    for (const auto& [kind, tree] : trees.parts) {
+      for (const LeafUse& use : uses_of_leaves(tree, boxes_.seen)) {
         if (use.is_subtracted) cuts[leaves_.first_primitive(use.leaf)] = true;
       }
     }
@@ -38,7 +35,9 @@ class PlateThickener {
     }
     if (plates.empty()) return;
     if (makes_copies) {
-      for (LeafTree* tree : all) *tree = with_thin_copies(*tree, trees.highlighted_leaves);
+      for (auto& [kind, tree] : trees.parts) {
+        tree = with_thin_copies(tree, trees.highlighted_leaves);
+      }
     }
     for (const Collector::PlaneLeaf* leaf : plates) {
       for (const csgcore::CsgToken& token : leaf->solid.tokens()) {
