@@ -1,5 +1,8 @@
 #include "lower/collector.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,6 +10,7 @@
 #include "base/elapsed.hpp"
 #include "base/geometry_dialect.hpp"
 #include "base/primitive_traits.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "frontend/stop.hpp"
 #include "hulls/point_hull.hpp"
 #include "lower/typed_numbers.hpp"
@@ -101,6 +105,12 @@ double stretch_of(const NodeData& data) {
   return has_half ? 2 : 1;
 }
 
+/// Returns whether the colours of nodes and of files count.
+bool shows_colors(const ImportOptions& options) {
+  return options.picture != PictureKind::kRendered || options.keeps_colors ||
+         GeometryDialect(options.language).keeps_colors;
+}
+
 /// Tells that a part of a final render has another dimension than the first one.
 void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
   problems.add(node, {dimension == 2 ? ": Ignoring 2D child object for 3D operation"
@@ -112,13 +122,12 @@ void note_mixing(const Node& node, int dimension, NodeProblems& problems) {
 
 Collector::Collector(const DesignTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
-      files(options.folder, polyhedra,
-            options.picture != PictureKind::kRendered || options.keeps_colors ||
-                GeometryDialect(options.language).keeps_colors),
+      files(options.folder, polyhedra, shows_colors(options)),
       fonts(options.font_files),
       tree_(*tree.nodes),
       options_(options),
       keeps_colors_(GeometryDialect(options.language).keeps_colors),
+      shows_colors_(shows_colors(options)),
       solids_(options.solids ? options.solids : std::make_shared<SolidPool>()),
       sources_{polyhedra, files, figure_solids_, *solids_} {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
@@ -192,15 +201,26 @@ NodeSources Collector::sources_of(uint32_t node) {
 
 void Collector::finish(const std::stop_token& stop) {
   add_pending(stop);
-  std::sort(plane_leaves.begin(), plane_leaves.end(),
-            [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
+  std::sort(whole_leaves.begin(), whole_leaves.end(),
+            [](const WholeLeaf& a, const WholeLeaf& b) { return a.node < b.node; });
 }
 
-const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
+const Collector::WholeLeaf* Collector::whole_leaf(uint32_t node) const {
   const auto found =
-      std::lower_bound(plane_leaves.begin(), plane_leaves.end(), node,
-                       [](const PlaneLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
-  return found != plane_leaves.end() && found->node == node ? &*found : nullptr;
+      std::lower_bound(whole_leaves.begin(), whole_leaves.end(), node,
+                       [](const WholeLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
+  return found != whole_leaves.end() && found->node == node ? &*found : nullptr;
+}
+
+std::vector<bool> Collector::are_of_plates() const {
+  std::vector<bool> result(primitives.size());
+  for (const WholeLeaf& leaf : whole_leaves) {
+    if (!leaf.is_plate) continue;
+    for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
+      if (token.is_primitive) result[token.value] = true;
+    }
+  }
+  return result;
 }
 
 /// Takes a node. Returns false if its children do not matter, or are taken already.
@@ -216,15 +236,14 @@ bool Collector::visit(uint32_t index) {
       add_solid(index);
       return false;
     case Role::kOperation:
-      if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
-      if (node.kind == NodeKind::kColor) enter_color(index);
+      if (node.kind == NodeKind::kMultmatrix || node.kind == NodeKind::kColor) enter(index);
       if (row.is_one_leaf && options_.picture != PictureKind::kRendered) enter_leaf(index);
       if (node.kind == NodeKind::kFill && has_children(index)) {
         problems.add(node, {": fill() not yet implemented for 3D", "it is drawn as a union"});
       }
       return true;
     case Role::kWhole:
-      add_plane(index);
+      add_whole(index);
       return false;
   }
   return false;
@@ -235,31 +254,25 @@ void Collector::leave_out(uint32_t node, const std::string& why) {
   problems.add(tree_.nodes[node], {" is left out", why});
 }
 
-void Collector::enter_matrix(uint32_t node) {
+/// Enters a multmatrix or a color node.
+void Collector::enter(uint32_t node) {
   NodeReader reader(tree_, tree_.nodes[node], problems);
-  const auto file = std::get<FileMatrix>(read_node(reader, {options_, fonts}));
-  if (is_identity(file)) return;
-  Context context = contexts_.back();
-  context.node = node;
-  if (context.flattened || !is_affine(file)) {
-    context.flattened = true;
-  } else {
-    context.frame = frames.add(context.frame, heal(file));
-  }
-  contexts_.push_back(context);
+  const NodeData data = read_node(reader, {options_, fonts});
+  const auto* matrix = std::get_if<FileMatrix>(&data);
+  if (matrix != nullptr ? is_identity(*matrix) : !shows_colors_) return;
+  contexts_.push_back(within(contexts_.back(), data));
+  contexts_.back().node = node;
 }
 
-void Collector::enter_color(uint32_t node) {
-  NodeReader reader(tree_, tree_.nodes[node], problems);
-  const auto color = std::get<NodeColor>(read_node(reader, {options_, fonts}));
-  const bool is_rendered = options_.picture == PictureKind::kRendered;
-  if (is_rendered && !keeps_colors_ && !options_.keeps_colors) return;
-  const std::optional<csgcore::Color>& outer = contexts_.back().color;
-  if (!color && !outer) return;
-  Context context = contexts_.back();
-  context.node = node;
-  context.color = inner_color(outer, color);
-  contexts_.push_back(context);
+Collector::Context Collector::within(Context around, const NodeData& node) {
+  if (const auto* color = std::get_if<NodeColor>(&node)) {
+    around.color = inner_color(around.color, *color);
+    return around;
+  }
+  const auto& file = std::get<FileMatrix>(node);
+  around.flattened = around.flattened || !is_affine(file);
+  if (!around.flattened) around.frame = frames.add(around.frame, heal(file));
+  return around;
 }
 
 void Collector::enter_leaf(uint32_t node) {
@@ -377,7 +390,7 @@ void Collector::add_sides(uint32_t node, const Primitive& solid, const SolidOfFa
     if (is_inner) primitives.back().color = kSeenFromWithin;
     builder.primitive(primitive);
   }
-  plane_leaves.push_back(
+  whole_leaves.push_back(
       {node, context.frame, Presence::kSolid, builder.finish(), box, false, box});
 }
 
@@ -419,20 +432,16 @@ Subtree Collector::read_subtree(uint32_t root) {
 }
 
 /// Adds a subtree of 2D nodes, or of an operation on solids, as one leaf.
-void Collector::add_plane(uint32_t root) {
+void Collector::add_whole(uint32_t root) {
   const Subtree subtree = read_subtree(root);
   const Context context = typed_context(root);
-  add_plane_leaf(subtree, root, context, problems);
+  add_whole_leaf(subtree, root, context, problems);
   // Among solids a final render ignores a plane figure.
-  PlaneLeaf& leaf = plane_leaves.back();
+  WholeLeaf& leaf = whole_leaves.back();
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
     leaf.presence = Presence::kEmpty;
     leaf.solid = {};
     leaf.figures.clear();
-    if (!pending_.empty() && pending_.back().node == leaf.node) {
-      pending_.pop_back();
-      pending_contexts_.pop_back();
-    }
   }
   if (any_modifiers) add_inner_parts(subtree, context);
 }
@@ -471,7 +480,7 @@ bool Collector::add_if_plane(uint32_t root) {
   const int dimension = dimension_of(root);
   if (dimension != 0 && !keeps_dimension(root, dimension)) return true;
   if (dimension != 2) return false;
-  add_plane_leaf(read_subtree(root), root, typed_context(root), problems);
+  add_whole_leaf(read_subtree(root), root, typed_context(root), problems);
   return true;
 }
 
@@ -480,15 +489,15 @@ bool Collector::keeps_dimension(uint32_t root, int dimension) {
   if (rendered_dimension_ == 0) rendered_dimension_ = dimension;
   if (rendered_dimension_ == dimension) return true;
   note_mixing(tree_.nodes[root], dimension, problems);
-  plane_leaves.push_back({root, 0, Presence::kEmpty, {}, {}, false});
+  whole_leaves.push_back({root});
   return false;
 }
 
-void Collector::add_plane_leaf(const Subtree& subtree, uint32_t root, const Context& context,
+void Collector::add_whole_leaf(const Subtree& subtree, uint32_t root, const Context& context,
                                NodeProblems& told) {
-  PlaneLeaf leaf{root, context.frame, Presence::kEmpty, {}, {}, false};
+  WholeLeaf leaf{root, context.frame};
   leaf.presence = lower_subtree(subtree, context, told, leaf);
-  plane_leaves.push_back(std::move(leaf));
+  whole_leaves.push_back(std::move(leaf));
 }
 
 /// Gives each part inside that is drawn by itself a leaf of its own.
@@ -497,23 +506,15 @@ void Collector::add_inner_parts(const Subtree& subtree, const Context& context) 
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
     Context inner = context;
-    for (const uint32_t node : part.around) {
-      if (const auto* color = std::get_if<NodeColor>(&subtree.data(node))) {
-        inner.color = inner_color(inner.color, *color);
-        continue;
-      }
-      const FileMatrix& file = subtree.data<FileMatrix>(node);
-      inner.flattened = inner.flattened || !is_affine(file);
-      if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
-    }
-    add_plane_leaf(subtree, part.node, inner, told);
-    plane_leaves.back().inner_modifiers = part.modifiers;
+    for (const uint32_t node : part.around) inner = within(inner, subtree.data(node));
+    add_whole_leaf(subtree, part.node, inner, told);
+    whole_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
 /// Leaves nodes out that are not lowered; the rest is, as if they were not there.
 Presence Collector::lower_subtree(const Subtree& subtree, const Context& context,
-                                  NodeProblems& told, PlaneLeaf& leaf) {
+                                  NodeProblems& told, WholeLeaf& leaf) {
   SubtreeEvaluation evaluation(
       subtree, leaf.node, options_, sources_, told,
       [&](uint32_t node, std::string_view why) { leave_out(node, std::string(why)); });
@@ -523,9 +524,8 @@ Presence Collector::lower_subtree(const Subtree& subtree, const Context& context
     std::optional<SolidValue> value = evaluation.solid();
     if (!value) return Presence::kLeftOut;
     if (value->is_empty()) return Presence::kEmpty;
-    pending_.push_back({leaf.node, context.frame, frames[context.frame].to_world,
-                        subtree.id(leaf.node), primitives.size(), std::move(*value)});
-    pending_contexts_.push_back(context);
+    pending_.push_back({whole_leaves.size(), context, subtree.id(leaf.node), primitives.size(),
+                        std::move(*value)});
     return Presence::kSolid;
   }
   const bool is_rendered = options_.picture == PictureKind::kRendered;
@@ -538,54 +538,66 @@ Presence Collector::lower_subtree(const Subtree& subtree, const Context& context
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
-  std::vector<LoweredSubtree> lowered = lower_all(pending_, *solids_, stop);
-  solids_->end_version();
-  if (pending_.empty()) return;
-  std::vector<Primitive> old_primitives = std::exchange(primitives, {});
-  std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
-  std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
-  std::vector<int> old_fragments = std::exchange(fragments, {});
-  size_t count = old_primitives.size();
-  for (const LoweredSubtree& solid : lowered) count += solid.solid.parts.size();
-  primitives.reserve(count);
-  boxes.reserve(count);
-  frame_of.reserve(count);
-  fragments.reserve(count);
-  std::vector<uint32_t> place(old_primitives.size());  // by primitive, of those that are there
-  const auto add_old = [&](size_t begin, size_t end) {
+  std::vector<LoweredSubtree> lowered(pending_.size());
+  const auto lower = [&](size_t begin, size_t end) {
+    const csgcore::StopScope scope(&stop);
     for (size_t i = begin; i < end; ++i) {
-      place[i] = static_cast<uint32_t>(primitives.size());
-      primitives.push_back(std::move(old_primitives[i]));
-      boxes.push_back(old_boxes[i]);
-      frame_of.push_back(old_frame_of[i]);
-      fragments.push_back(old_fragments[i]);
+      const uint32_t frame = pending_[i].context.frame;
+      lowered[i] =
+          lower_solid(pending_[i].value, frames[frame].to_world, frame, pending_[i].id, *solids_);
     }
   };
-  size_t done = 0;
-  std::vector<PlaneLeaf> leaves;
-  for (size_t i = 0; i < pending_.size(); ++i) {
-    add_old(done, pending_[i].primitives_before);
-    done = pending_[i].primitives_before;
-    PlaneLeaf& leaf = leaves.emplace_back(
-        PlaneLeaf{pending_[i].node, pending_[i].frame, Presence::kEmpty, {}, {}, false});
-    leaf.presence = take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
+  // Fewer take less than the threads take to start.
+  constexpr size_t kAtOnce = 8;
+  if (pending_.size() <= kAtOnce) {
+    lower(0, pending_.size());
+  } else {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, pending_.size(), kAtOnce),
+                      [&](const auto& range) { lower(range.begin(), range.end()); });
   }
-  add_old(done, old_primitives.size());
+  solids_->end_version();
+  if (pending_.empty()) return;
+  const auto visit_lists = [this](const auto& visit) {
+    visit(primitives);
+    visit(boxes);
+    visit(frame_of);
+    visit(fragments);
+  };
+  size_t count = primitives.size();
+  for (const LoweredSubtree& solid : lowered) count += solid.solid.parts.size();
+  visit_lists([&](auto& list) { list.reserve(count); });
+  const auto old_end = static_cast<uint32_t>(primitives.size());
+  std::vector<uint32_t> order;  // the primitives, which are added at the end, as they are to stand
+  order.reserve(count);
+  const auto add = [&](uint32_t begin, size_t end) {
+    for (uint32_t i = begin; i < end; ++i) order.push_back(i);
+  };
+  uint32_t next_old = 0;
+  for (size_t i = 0; i < pending_.size(); ++i) {
+    const auto first = static_cast<uint32_t>(primitives.size());
+    WholeLeaf& leaf = whole_leaves[pending_[i].leaf];
+    leaf.presence = take_lowered(std::exchange(lowered[i], {}), pending_[i].context, leaf);
+    add(next_old, pending_[i].primitives_before);
+    next_old = static_cast<uint32_t>(pending_[i].primitives_before);
+    add(first, primitives.size());
+  }
+  add(next_old, old_end);
+  visit_lists([&](auto& list) {
+    auto ordered = std::exchange(list, {});
+    list.reserve(order.size());
+    for (const uint32_t from : order) list.push_back(std::move(ordered[from]));
+  });
+  std::vector<uint32_t> place(order.size());  // of each, where it has been
+  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
   for (uint32_t& primitive : primitive_of) {
     if (primitive != kNoPrimitive) primitive = place[primitive];
   }
-  size_t next = 0;
-  for (PlaneLeaf& leaf : plane_leaves) {
-    if (next < leaves.size() && leaf.node == leaves[next].node) {
-      leaves[next].inner_modifiers = leaf.inner_modifiers;
-      leaf = std::move(leaves[next++]);
-    } else {
-      leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });
-    }
+  for (WholeLeaf& leaf : whole_leaves) {
+    leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });
   }
 }
 
-Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {
+Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, WholeLeaf& leaf) {
   leaf.is_plate = lowered.is_plate;
   leaf.is_faceted = std::ranges::any_of(lowered.solid.parts, &SolidPart::is_faceted);
   // OpenSCAD's final render resizes a solid with the marks of its cut faces.

@@ -61,13 +61,13 @@ class Collector {
   std::vector<CompoundLeaf> compound_leaves;
   /// What has become of a node that is a leaf as a whole, of several primitives: a 2D subtree, a
   /// hull, or a polyhedron whose faces run both ways.
-  struct PlaneLeaf {
+  struct WholeLeaf {
     uint32_t node;
-    uint32_t frame;
-    Presence presence;
-    csgcore::CsgTree solid;  // over `primitives`; empty unless it is solid
-    csgcore::Box box;        // of its parts, in the world
-    bool is_plate;
+    uint32_t frame = 0;
+    Presence presence = Presence::kEmpty;
+    csgcore::CsgTree solid{};  // over `primitives`; empty unless it is solid
+    csgcore::Box box{};        // of its parts, in the world
+    bool is_plate = false;
     std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
@@ -77,9 +77,11 @@ class Collector {
     /// They count as those of the tree around it, which tells cut faces from others.
     bool keeps_operations = false;
   };
-  std::vector<PlaneLeaf> plane_leaves;  // in file order
+  std::vector<WholeLeaf> whole_leaves;  // in file order
   /// The one whose root is the node, or null.
-  const PlaneLeaf* plane_leaf(uint32_t node) const;
+  const WholeLeaf* whole_leaf(uint32_t node) const;
+  /// Returns, by primitive, whether it is part of a plate that stands for a plane figure.
+  std::vector<bool> are_of_plates() const;
   NodeRange selected;  // what `!` leaves
   // After finish():
   /// Nodes that are missing, which are among the problems.
@@ -96,6 +98,15 @@ class Collector {
     bool in_leaf;    // a compound one, whose nodes have no colours of their own
   };
 
+  /// A solid whose primitives are made later, with those of others at once.
+  struct PendingSolid {
+    size_t leaf;  // among whole_leaves
+    Context context;
+    uint32_t id;               // of its primitives
+    size_t primitives_before;  // of the design
+    SolidValue value;
+  };
+
   bool is_within(uint32_t node, uint32_t ancestor) const {
     return node < tree_.nodes[ancestor].end;
   }
@@ -105,8 +116,9 @@ class Collector {
   NodeSources sources_of(uint32_t node);
   bool visit(uint32_t node);
   void leave_out(uint32_t node, const std::string& why);
-  void enter_matrix(uint32_t node);
-  void enter_color(uint32_t node);
+  void enter(uint32_t node);
+  /// Returns what a multmatrix or color node hands down where it is handed `around`.
+  Context within(Context around, const NodeData& node);
   void enter_leaf(uint32_t node);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node);
@@ -121,7 +133,7 @@ class Collector {
   void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
                  const Context& context);
   Subtree read_subtree(uint32_t root);
-  void add_plane(uint32_t root);
+  void add_whole(uint32_t root);
   bool is_of_either_dimension(uint32_t node);
   /// The dimension of the first geometry of a subtree: 2, 3, or 0 if it has none.
   int dimension_of(uint32_t root) const;
@@ -129,17 +141,18 @@ class Collector {
   /// Returns whether a final render keeps a part of that dimension. One that it does not keep is
   /// empty, with a warning.
   bool keeps_dimension(uint32_t root, int dimension);
-  void add_plane_leaf(const Subtree& subtree, uint32_t root, const Context& context,
+  void add_whole_leaf(const Subtree& subtree, uint32_t root, const Context& context,
                       NodeProblems& told);
   Presence lower_subtree(const Subtree& subtree, const Context& context, NodeProblems& told,
-                         PlaneLeaf& leaf);
+                         WholeLeaf& leaf);
   void add_inner_parts(const Subtree& subtree, const Context& context);
   void add_pending(const std::stop_token& stop);
-  Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
+  Presence take_lowered(LoweredSubtree lowered, const Context& context, WholeLeaf& leaf);
 
   const NodeTree& tree_;
   const ImportOptions& options_;
   const bool keeps_colors_;  // GeometryDialect::keeps_colors
+  const bool shows_colors_;  // of nodes and of files
   std::vector<Context> contexts_;
   /// By node, and behind the last one: how many primitive nodes stand before it.
   std::vector<uint32_t> ids_;
@@ -152,9 +165,7 @@ class Collector {
   FigureSolids figure_solids_;
   const std::shared_ptr<SolidPool> solids_;
   const SolidSources sources_;
-  /// Hulls of solids, in file order, and what their roots are handed down.
-  std::vector<PendingSolid> pending_;
-  std::vector<Context> pending_contexts_;
+  std::vector<PendingSolid> pending_;  // in file order
 };
 
 }  // namespace frontend

@@ -84,8 +84,8 @@ class Emitter {
         continue;
       }
       const bool is_cut = is_next_cut();
-      if (const Collector::PlaneLeaf* leaf = collected_.plane_leaf(i)) {
-        add_plane_leaf(i, *leaf, is_cut);
+      if (const Collector::WholeLeaf* leaf = collected_.whole_leaf(i)) {
+        add_whole_leaf(i, *leaf, is_cut);
         i = node.end;
       } else if (collected_.primitive_of[i] != kNone) {
         add_primitive(i, is_cut);
@@ -197,28 +197,28 @@ class Emitter {
     add_leaf(primitive, is_highlighted_within(node));
   }
 
-  void add_plane_leaf(uint32_t node, const Collector::PlaneLeaf& plane, bool is_cut) {
-    if (plane.solid.empty()) {
+  void add_whole_leaf(uint32_t node, const Collector::WholeLeaf& whole, bool is_cut) {
+    if (whole.solid.empty()) {
       builder().empty();
       return;
     }
-    if (marks_cut_faces_ && plane.has_operations && !is_cut) {
-      mark_operands(plane.solid.tokens());
+    if (marks_cut_faces_ && whole.has_operations && !is_cut) {
+      mark_operands(whole.solid.tokens());
     } else {
-      for (const csgcore::CsgToken& token : plane.solid.tokens()) {
+      for (const csgcore::CsgToken& token : whole.solid.tokens()) {
         if (token.is_primitive) mark(token.value, is_cut);
       }
     }
-    if (in_leaf_ || plane.keeps_operations) {
-      rebuild(plane.solid.tokens(), builder(),
+    if (in_leaf_ || whole.keeps_operations) {
+      rebuild(whole.solid.tokens(), builder(),
               [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
       return;
     }
-    const auto [entry, is_new] = leaf_of_plane_.try_emplace(node, 0);
+    const auto [entry, is_new] = leaf_of_whole_.try_emplace(node, 0);
     if (is_new) {
-      entry->second = plane.solid.tokens().size() == 1
-                          ? plane.solid.tokens().front().value
-                          : leaves_.add(plane.solid, plane.frame, plane.known_box);
+      entry->second = whole.solid.tokens().size() == 1
+                          ? whole.solid.tokens().front().value
+                          : leaves_.add(whole.solid, whole.frame, whole.known_box);
     }
     add_leaf(entry->second, is_highlighted_within(node));
   }
@@ -263,7 +263,7 @@ class Emitter {
   bool in_leaf_ = false;
   std::vector<OpenNode> open_;
   std::unordered_map<uint32_t, uint32_t> leaf_of_compound_;
-  std::unordered_map<uint32_t, uint32_t> leaf_of_plane_;  // by node
+  std::unordered_map<uint32_t, uint32_t> leaf_of_whole_;  // by node
   std::vector<uint32_t> highlighted_leaves_;
 };
 
@@ -291,7 +291,7 @@ void facet(const DesignTree& tree, Collector& collected, const ImportOptions& op
 
 /// Parts of a hull are drawn beside it, or over it, as those of a group are.
 void add_inner_parts(const Collector& collected, ResolvedModifiers& modifiers) {
-  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+  for (const Collector::WholeLeaf& leaf : collected.whole_leaves) {
     if (leaf.presence != Presence::kSolid) continue;
     const uint8_t own = leaf.inner_modifiers;
     if ((own & language::kBackgroundModifier) != 0) modifiers.background.push_back(leaf.node);
@@ -310,7 +310,7 @@ ResolvedModifiers modifiers_of(const NodeTree& tree, const Collector& collected,
     if (primitive != kNone) leaves[i] = {Presence::kSolid, collected.boxes[primitive]};
   }
   for (const uint32_t node : collected.left_out) leaves[node].presence = Presence::kLeftOut;
-  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+  for (const Collector::WholeLeaf& leaf : collected.whole_leaves) {
     if (leaf.inner_modifiers == 0) leaves[leaf.node] = {leaf.presence, leaf.box, true};
   }
   ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
@@ -333,28 +333,16 @@ bool needs_layers(const Collector& collected, PictureKind picture) {
                      [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
 }
 
-/// Returns whether every primitive is part of a plate that stands for a plane figure.
-bool has_plates_alone(const Collector& collected) {
-  if (collected.plane_leaves.empty()) return false;
-  std::vector<bool> is_of_plate(collected.primitives.size());
-  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    if (!leaf.is_plate) continue;
-    for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
-      if (token.is_primitive) is_of_plate[token.value] = true;
-    }
-  }
-  return !is_of_plate.empty() &&
-         std::find(is_of_plate.begin(), is_of_plate.end(), false) == is_of_plate.end();
-}
-
 /// Finds out whether the design is a plane figure, and sets the outlines of its final render.
 void set_flat_outlines(const Collector& collected, PictureKind picture, ImportedDesign& design) {
   if (picture != PictureKind::kRendered) {
-    design.is_plane_figure = has_plates_alone(collected);
+    const std::vector<bool> are_of_plates = collected.are_of_plates();
+    const bool has_plates_alone = std::ranges::find(are_of_plates, false) == are_of_plates.end();
+    design.is_plane_figure = has_plates_alone && !are_of_plates.empty();
     return;
   }
   std::vector<Figure> figures;
-  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+  for (const Collector::WholeLeaf& leaf : collected.whole_leaves) {
     figures.insert(figures.end(), leaf.figures.begin(), leaf.figures.end());
   }
   design.is_plane_figure = !figures.empty();
@@ -391,7 +379,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
   merge_features(collected.primitives, collected.frame_of, collected.frames,
                  box_around(collected.boxes));
   collected.frame_of = {};
-  if (collected.compound_leaves.empty() && collected.plane_leaves.empty()) collected.frames = {};
+  if (collected.compound_leaves.empty() && collected.whole_leaves.empty()) collected.frames = {};
   throw_if_stopped(stop);
   facet(tree, collected, options, design.warnings);
   design.meshes = collected.polyhedra.take_meshes();
@@ -407,8 +395,8 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
           .design();
   count_leaves(trees, leaves, design);
   design.faceted_leaves = static_cast<uint32_t>(
-      std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
-                    [](const Collector::PlaneLeaf& leaf) { return leaf.is_faceted; }));
+      std::count_if(collected.whole_leaves.begin(), collected.whole_leaves.end(),
+                    [](const Collector::WholeLeaf& leaf) { return leaf.is_faceted; }));
   design.left_out = static_cast<uint32_t>(collected.left_out.size());
   const bool decides = needs_layers(collected, options.picture);
   LeafBoxes boxes = boxes_of_leaves(collected, leaves, trees, options.measures_leaves, decides);
@@ -416,7 +404,7 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
       boxes_of_thick_plates(dialect.figure_thickness, collected, leaves, boxes.seen);
   design.axes_reach = dialect.axes_reach;
   design.view_box = view_box(trees, thick.empty() ? boxes.seen : thick, dialect.intersects_boxes);
-  if (!collected.plane_leaves.empty()) {
+  if (!collected.whole_leaves.empty()) {
     thicken_cutting_plates(options.picture, trees, collected, leaves, boxes);
   }
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {

@@ -39,14 +39,7 @@ Box combined_box(const Box& rest, const csgcore::Affine& frame_to_world, const B
 class BoxFinder {
  public:
   BoxFinder(const Collector& collected, const Leaves& leaves)
-      : collected_(collected), leaves_(leaves), is_of_plate_(collected.primitives.size()) {
-    for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-      if (!leaf.is_plate) continue;
-      for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
-        if (token.is_primitive) is_of_plate_[token.value] = true;
-      }
-    }
-  }
+      : collected_(collected), leaves_(leaves), is_of_plate_(collected.are_of_plates()) {}
 
   /// `seen` has the boxes of the primitives.
   LeafBoxes find(const Design& trees, std::vector<Box> seen, bool measures_leaves, bool decides) {

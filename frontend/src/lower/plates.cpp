@@ -25,8 +25,8 @@ class PlateThickener {
         if (use.is_subtracted) cuts[leaves_.first_primitive(use.leaf)] = true;
       }
     }
-    std::vector<const Collector::PlaneLeaf*> plates;
-    for (const Collector::PlaneLeaf& leaf : collected_.plane_leaves) {
+    std::vector<const Collector::WholeLeaf*> plates;
+    for (const Collector::WholeLeaf& leaf : collected_.whole_leaves) {
       if (!leaf.is_plate || leaf.solid.empty()) continue;
       const uint32_t first = leaf.solid.tokens().front().value;
       if (!cuts[first]) continue;
@@ -39,7 +39,7 @@ class PlateThickener {
         tree = with_thin_copies(tree, trees.highlighted_leaves);
       }
     }
-    for (const Collector::PlaneLeaf* leaf : plates) {
+    for (const Collector::WholeLeaf* leaf : plates) {
       for (const csgcore::CsgToken& token : leaf->solid.tokens()) {
         if (!token.is_primitive) continue;
         thicken_plate(collected_.primitives[token.value], collected_.frames[leaf->frame].to_world);
@@ -59,7 +59,7 @@ class PlateThickener {
     });
   }
 
-  uint32_t thin_copy(uint32_t leaf, const Collector::PlaneLeaf& plate,
+  uint32_t thin_copy(uint32_t leaf, const Collector::WholeLeaf& plate,
                      std::vector<uint32_t>& highlighted) {
     const auto [copy, is_new] = copies_.try_emplace(leaf, 0);
     if (!is_new) return copy->second;
@@ -80,7 +80,7 @@ class PlateThickener {
   Collector& collected_;
   Leaves& leaves_;
   LeafBoxes& boxes_;
-  std::unordered_map<uint32_t, const Collector::PlaneLeaf*> plate_of_;  // by first primitive
+  std::unordered_map<uint32_t, const Collector::WholeLeaf*> plate_of_;  // by first primitive
   std::unordered_map<uint32_t, uint32_t> copies_;                       // by leaf
 };
 
@@ -92,7 +92,7 @@ std::vector<csgcore::Box> boxes_of_thick_plates(double thickness, const Collecto
   std::vector<csgcore::Box> result;
   if (thickness == 0) return result;
   std::unordered_map<uint32_t, uint32_t> frame_of;  // by the first primitive of a plate
-  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+  for (const Collector::WholeLeaf& leaf : collected.whole_leaves) {
     if (!leaf.is_plate || leaf.solid.empty()) continue;
     frame_of.emplace(leaf.solid.tokens().front().value, leaf.frame);
   }

@@ -1,8 +1,5 @@
 #include "subtrees/lowering.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -62,28 +59,6 @@ std::vector<SolidPart> pieces_of(const SolidPart& part, SolidPool& pool) {
   return result;
 }
 
-LoweredSubtree lower_solid(const PendingSolid& solid, SolidPool& pool) {
-  LoweredSubtree result;
-  result.solid = replaced<SolidPart>(solid.value, [&](const SolidPart& part) {
-    csgcore::stop_point();
-    std::vector<SolidPart> pieces = pieces_of(part, pool);
-    for (SolidPart& piece : pieces) {
-      piece.primitive->local_to_world = compose(solid.to_world, piece.primitive->local_to_world);
-      piece.primitive->id = solid.id;
-      piece.frame = solid.frame;
-      piece.box = mapped(solid.to_world, piece.box);
-    }
-    return pieces;
-  });
-  result.has_operations = !solid.value.is_union();
-  if (!result.has_operations) {
-    result.box.emplace();
-    for (const SolidPart& part : solid.value.parts) result.box->merge(part.box);
-    result.box = mapped(solid.to_world, *result.box);
-  }
-  return result;
-}
-
 }  // namespace
 
 LoweredSubtree lower_figures(SubtreeEvaluation& evaluation, Plate plate, uint32_t frame,
@@ -122,22 +97,25 @@ void thicken_plate(Primitive& part, const Affine& frame_to_world) {
       compose(frame_to_world, compose(stretched, compose(to_frame, part.local_to_world)));
 }
 
-std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, SolidPool& pool,
-                                      const std::stop_token& stop) {
-  std::vector<LoweredSubtree> result(pending.size());
-  const auto lower = [&](size_t begin, size_t end) {
-    const csgcore::StopScope scope(&stop);
-    for (size_t i = begin; i < end; ++i) {
-      result[i] = lower_solid(pending[i], pool);
+LoweredSubtree lower_solid(const SolidValue& value, const Affine& to_world, uint32_t frame,
+                           uint32_t id, SolidPool& pool) {
+  LoweredSubtree result;
+  result.solid = replaced<SolidPart>(value, [&](const SolidPart& part) {
+    csgcore::stop_point();
+    std::vector<SolidPart> pieces = pieces_of(part, pool);
+    for (SolidPart& piece : pieces) {
+      piece.primitive->local_to_world = compose(to_world, piece.primitive->local_to_world);
+      piece.primitive->id = id;
+      piece.frame = frame;
+      piece.box = mapped(to_world, piece.box);
     }
-  };
-  // Fewer take less than the threads take to start.
-  constexpr size_t kAtOnce = 8;
-  if (pending.size() <= kAtOnce) {
-    lower(0, pending.size());
-  } else {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, pending.size(), kAtOnce),
-                      [&](const auto& range) { lower(range.begin(), range.end()); });
+    return pieces;
+  });
+  result.has_operations = !value.is_union();
+  if (!result.has_operations) {
+    result.box.emplace();
+    for (const SolidPart& part : value.parts) result.box->merge(part.box);
+    result.box = mapped(to_world, *result.box);
   }
   return result;
 }

@@ -7,8 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
-#include <vector>
 
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
@@ -34,18 +32,9 @@ LoweredSubtree lower_figures(SubtreeEvaluation& evaluation, Plate plate, uint32_
 /// Makes a part of a plate that stands in that frame as thick as one that is subtracted.
 void thicken_plate(csgcore::Primitive& part, const csgcore::Affine& frame_to_world);
 
-/// The solid of a node, and where its primitives belong.
-struct PendingSolid {
-  uint32_t node;
-  uint32_t frame;
-  csgcore::Affine to_world;  // of the frame
-  uint32_t id;               // of its primitives
-  size_t primitives_before;  // of the design
-  SolidValue value;
-};
-
-/// Returns the primitives of each. Throws if it is stopped (throw_if_stopped).
-std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, SolidPool& pool,
-                                      const std::stop_token& stop);
+/// Returns the primitives of a solid, which have that id. `frame`, which leads to the world by
+/// `to_world`, is where its node stands. Any threads may call it.
+LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_world, uint32_t frame,
+                           uint32_t id, SolidPool& pool);
 
 }  // namespace frontend
