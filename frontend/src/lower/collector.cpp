@@ -201,15 +201,7 @@ NodeSources Collector::sources_of(uint32_t node) {
 
 void Collector::finish(const std::stop_token& stop) {
   add_pending(stop);
-  std::sort(whole_leaves.begin(), whole_leaves.end(),
-            [](const WholeLeaf& a, const WholeLeaf& b) { return a.node < b.node; });
-}
-
-const Collector::WholeLeaf* Collector::whole_leaf(uint32_t node) const {
-  const auto found =
-      std::lower_bound(whole_leaves.begin(), whole_leaves.end(), node,
-                       [](const WholeLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
-  return found != whole_leaves.end() && found->node == node ? &*found : nullptr;
+  std::ranges::sort(whole_leaves, {}, &WholeLeaf::node);
 }
 
 std::vector<bool> Collector::are_of_plates() const {

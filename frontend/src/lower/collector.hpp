@@ -1,6 +1,7 @@
 // From the nodes of a tree to primitives in their frames.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -78,8 +79,6 @@ class Collector {
     bool keeps_operations = false;
   };
   std::vector<WholeLeaf> whole_leaves;  // in file order
-  /// The one whose root is the node, or null.
-  const WholeLeaf* whole_leaf(uint32_t node) const;
   /// Returns, by primitive, whether it is part of a plate that stands for a plane figure.
   std::vector<bool> are_of_plates() const;
   NodeRange selected;  // what `!` leaves
@@ -167,5 +166,12 @@ class Collector {
   const SolidSources sources_;
   std::vector<PendingSolid> pending_;  // in file order
 };
+
+/// Returns the one of the leaves, which are in file order, that the node is; null: it is none.
+template <typename Leaf>
+const Leaf* leaf_at(const std::vector<Leaf>& leaves, uint32_t node) {
+  const auto found = std::ranges::lower_bound(leaves, node, {}, &Leaf::node);
+  return found != leaves.end() && found->node == node ? &*found : nullptr;
+}
 
 }  // namespace frontend

@@ -58,7 +58,7 @@ class Emitter {
  private:
   struct OpenNode {
     uint32_t end;
-    uint32_t compound_leaf;  // the node as it is named among the collector's; kNone: it is none
+    const Collector::CompoundLeaf* compound;  // null: it is none
     bool keeps_highlighted;  // it is not a union, or all its operands are highlighted
     bool is_highlighted;     // it has `#`, or a node around it has
     Op op = Op::kUnion;
@@ -75,7 +75,7 @@ class Emitter {
 
   /// The nodes of the range as operands of a union. `root` is taken whatever its modifiers say.
   LeafTree emit(NodeRange range, uint32_t root, bool keeps_highlighted) {
-    open_.assign(1, {kNone, kNone, keeps_highlighted, false, Op::kUnion, false, 0});
+    open_.assign(1, {kNone, nullptr, keeps_highlighted, false, Op::kUnion, false, 0});
     for (uint32_t i = range.begin; i < range.end;) {
       const Node& node = tree_.nodes[i];
       close_until(i);
@@ -84,7 +84,7 @@ class Emitter {
         continue;
       }
       const bool is_cut = is_next_cut();
-      if (const Collector::WholeLeaf* leaf = collected_.whole_leaf(i)) {
+      if (const Collector::WholeLeaf* leaf = leaf_at(collected_.whole_leaves, i)) {
         add_whole_leaf(i, *leaf, is_cut);
         i = node.end;
       } else if (collected_.primitive_of[i] != kNone) {
@@ -105,7 +105,7 @@ class Emitter {
     while (open_.size() > 1 && open_.back().end <= position) {
       const OpenNode done = open_.back();
       open_.pop_back();
-      if (done.compound_leaf != kNone) {
+      if (done.compound != nullptr) {
         finish_leaf(done);
       } else {
         builder().close();
@@ -153,21 +153,21 @@ class Emitter {
   uint32_t enter(uint32_t index, bool is_cut) {
     const Node& node = tree_.nodes[index];
     const bool is_highlighted = is_highlighted_within(index);
-    const uint32_t compound = in_leaf_ ? kNone : compound_leaf_at(index);
-    if (compound != kNone && leaf_of_compound_.contains(compound)) {
-      add_leaf(leaf_of_compound_[compound], is_highlighted);
+    const auto* compound = in_leaf_ ? nullptr : leaf_at(collected_.compound_leaves, index);
+    if (compound != nullptr && leaf_of_.contains(index)) {
+      add_leaf(leaf_of_[index], is_highlighted);
       return node.end;
     }
     const Op op = row_of(node.kind).op;
     const bool keeps_highlighted = op != Op::kUnion || (!modifiers_.nodes.empty() &&
                                                         modifiers_.nodes[index].keeps_highlighted);
-    if (compound == kNone) {
+    if (compound == nullptr) {
       builder().open(op);
     } else {
       in_leaf_ = true;
     }
     open_.push_back({node.end, compound, keeps_highlighted, is_highlighted, op,
-                     compound == kNone && is_cut, 0});
+                     compound == nullptr && is_cut, 0});
     return index + 1;
   }
 
@@ -178,13 +178,15 @@ class Emitter {
       builder_.empty();
       return;
     }
-    // One primitive is a leaf by itself.
-    const uint32_t leaf =
-        solid.tokens().size() == 1
-            ? solid.tokens().front().value
-            : leaves_.add(std::move(solid), collected_.compound_leaves[node.compound_leaf].frame);
-    leaf_of_compound_[node.compound_leaf] = leaf;
-    add_leaf(leaf, node.is_highlighted);
+    const auto& [root, frame] = *node.compound;
+    leaf_of_[root] = leaf_of(std::move(solid), frame);
+    add_leaf(leaf_of_[root], node.is_highlighted);
+  }
+
+  /// One primitive is a leaf by itself.
+  uint32_t leaf_of(CsgTree solid, uint32_t frame, const std::optional<Box>& box = std::nullopt) {
+    if (solid.tokens().size() == 1) return solid.tokens().front().value;
+    return leaves_.add(std::move(solid), frame, box);
   }
 
   void add_primitive(uint32_t node, bool is_cut) {
@@ -214,12 +216,8 @@ class Emitter {
               [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
       return;
     }
-    const auto [entry, is_new] = leaf_of_whole_.try_emplace(node, 0);
-    if (is_new) {
-      entry->second = whole.solid.tokens().size() == 1
-                          ? whole.solid.tokens().front().value
-                          : leaves_.add(whole.solid, whole.frame, whole.known_box);
-    }
+    const auto [entry, is_new] = leaf_of_.try_emplace(node, 0);
+    if (is_new) entry->second = leaf_of(whole.solid, whole.frame, whole.known_box);
     add_leaf(entry->second, is_highlighted_within(node));
   }
 
@@ -235,16 +233,6 @@ class Emitter {
   }
 
   CsgTreeBuilder& builder() { return in_leaf_ ? leaf_builder_ : builder_; }
-
-  /// The node's place among the compound leaves, or kNone.
-  uint32_t compound_leaf_at(uint32_t node) const {
-    const auto& all = collected_.compound_leaves;
-    const auto found = std::lower_bound(
-        all.begin(), all.end(), node,
-        [](const Collector::CompoundLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
-    if (found == all.end() || found->node != node) return kNone;
-    return static_cast<uint32_t>(found - all.begin());
-  }
 
   bool is_operand(uint32_t node) const {
     if (modifiers_.nodes.empty()) return true;
@@ -262,8 +250,7 @@ class Emitter {
   CsgTreeBuilder builder_, leaf_builder_;
   bool in_leaf_ = false;
   std::vector<OpenNode> open_;
-  std::unordered_map<uint32_t, uint32_t> leaf_of_compound_;
-  std::unordered_map<uint32_t, uint32_t> leaf_of_whole_;  // by node
+  std::unordered_map<uint32_t, uint32_t> leaf_of_;  // by node, of those that are leaves as a whole
   std::vector<uint32_t> highlighted_leaves_;
 };
 
