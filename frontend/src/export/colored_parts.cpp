@@ -25,27 +25,10 @@ enum class Share : uint8_t { kNothing, kSome, kAll };
 class ColorDivider {
  public:
   ColorDivider(std::span<const CsgToken> tokens, std::span<const Box> boxes)
-      : tokens_(tokens), starts_(tokens.size()), boxes_(tokens.size()), shares_(tokens.size()) {
-    std::vector<uint32_t> done;  // subtrees that are no operands yet
-    for (uint32_t i = 0; i < tokens.size(); ++i) {
-      starts_[i] = i;
-      if (tokens[i].is_primitive) {
-        boxes_[i] = boxes[tokens[i].value];
-      } else {
-        const auto operands = std::span(done).last(tokens[i].value);
-        starts_[i] = starts_[operands.front()];
-        boxes_[i] = boxes_[operands.front()];
-        for (const uint32_t operand : operands.subspan(1)) {
-          if (tokens[i].op == Op::kUnion) boxes_[i].merge(boxes_[operand]);
-          if (tokens[i].op == Op::kIntersection) {
-            boxes_[i] = csgcore::intersection(boxes_[i], boxes_[operand]);
-          }
-        }
-        done.resize(done.size() - tokens[i].value);
-      }
-      done.push_back(i);
-    }
-  }
+      : tokens_(tokens),
+        subtrees_(tokens),
+        boxes_(subtree_boxes(tokens, boxes)),
+        shares_(tokens.size()) {}
 
   template <typename HasColor>
   csgcore::CsgTree part(const HasColor& has_color) {
@@ -105,27 +88,14 @@ class ColorDivider {
     if (shares_[step.subtree] == Share::kAll) return add_whole(step.subtree);
     if (tokens_[step.subtree].op == Op::kUnion) return divide_union(step.subtree);
     // The colour is that of the first operand.
-    std::vector<uint32_t> operands = operands_of(step.subtree);
+    std::vector<uint32_t> operands = subtrees_.operands(step.subtree);
     push(Step::kClose);
     for (size_t i = operands.size(); i-- > 1;) push(Step::kWhole, operands[i]);
     push(Step::kColor, operands.front());
     push(Step::kOpen, 0, tokens_[step.subtree].op);
   }
 
-  void add_whole(uint32_t subtree) {
-    rebuild(tokens_.subspan(starts_[subtree], subtree + 1 - starts_[subtree]), builder_,
-            [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
-  }
-
-  std::vector<uint32_t> operands_of(uint32_t subtree) const {
-    std::vector<uint32_t> operands(tokens_[subtree].value);
-    uint32_t next = subtree - 1;
-    for (size_t i = operands.size(); i-- > 0;) {
-      operands[i] = next;
-      next = starts_[next] - 1;
-    }
-    return operands;
-  }
+  void add_whole(uint32_t subtree) { add_tree(subtrees_.tokens(subtree), builder_); }
 
   /// What the operands leave one after another: each adds its volume of the colour, and takes away
   /// the rest of its volume from what was there before.
@@ -136,7 +106,7 @@ class ColorDivider {
     };
     std::vector<Run> runs;
     Box box;  // of what is there before
-    for (const uint32_t operand : operands_of(subtree)) {
+    for (const uint32_t operand : subtrees_.operands(subtree)) {
       const Share share = shares_[operand];
       const bool meets = !csgcore::intersection(boxes_[operand], box).empty();
       if (share != Share::kAll && meets) {
@@ -166,10 +136,10 @@ class ColorDivider {
   }
 
   std::span<const CsgToken> tokens_;
-  std::vector<uint32_t> starts_;  // by subtree: its first token
-  std::vector<Box> boxes_;        // by subtree
-  std::vector<Share> shares_;     // by subtree
-  std::vector<Step> steps_;       // the next one last
+  CsgSubtrees subtrees_;
+  std::vector<Box> boxes_;     // by subtree
+  std::vector<Share> shares_;  // by subtree
+  std::vector<Step> steps_;    // the next one last
   CsgTreeBuilder builder_;
 };
 

@@ -128,19 +128,12 @@ class Emitter {
 
   /// Marks the primitives of a solid that is of operations on solids, in postfix order.
   void mark_operands(std::span<const csgcore::CsgToken> tokens) {
-    std::vector<size_t> begins;  // of operands that no operation has taken
+    const CsgSubtrees subtrees(tokens);
     std::vector<bool> is_cut(tokens.size());
-    for (size_t i = 0; i < tokens.size(); ++i) {
-      if (tokens[i].is_primitive) {
-        begins.push_back(i);
-        continue;
-      }
-      const size_t first = begins.size() - tokens[i].value;
-      if (tokens[i].op == Op::kDifference && tokens[i].value > 1) {
-        std::fill(is_cut.begin() + static_cast<std::ptrdiff_t>(begins[first + 1]),
-                  is_cut.begin() + static_cast<std::ptrdiff_t>(i), true);
-      }
-      begins.resize(first + 1);
+    for (uint32_t i = 0; i < tokens.size(); ++i) {
+      if (tokens[i].is_primitive || tokens[i].op != Op::kDifference) continue;
+      const uint32_t first = subtrees.operands(i).front();
+      std::fill(is_cut.begin() + first + 1, is_cut.begin() + i, true);
     }
     for (size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_primitive) continue;
@@ -212,8 +205,7 @@ class Emitter {
       }
     }
     if (in_leaf_ || whole.keeps_operations) {
-      rebuild(whole.solid.tokens(), builder(),
-              [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
+      add_tree(whole.solid.tokens(), builder());
       return;
     }
     const auto [entry, is_new] = leaf_of_.try_emplace(node, 0);

@@ -27,21 +27,6 @@ using Terms = std::vector<Term>;
 
 bool are_disjoint(const Box& a, const Box& b) { return csgcore::intersection(a, b).empty(); }
 
-/// Where each subtree of the postfix tokens begins.
-std::vector<uint32_t> first_tokens(std::span<const CsgToken> tokens) {
-  std::vector<uint32_t> firsts(tokens.size());
-  std::vector<uint32_t> operands;  // the first tokens of those that no operation has taken
-  for (uint32_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is_primitive) {
-      operands.push_back(i);
-    } else {
-      operands.resize(operands.size() - tokens[i].value + 1);
-    }
-    firsts[i] = operands.back();
-  }
-  return firsts;
-}
-
 /// Writes subtrees as sums of terms.
 class Multiplier {
  public:
@@ -136,8 +121,7 @@ class ProductList {
 
   /// A subtree of opaque leaves, as it is.
   void add_opaque(std::span<const CsgToken> subtree) {
-    rebuild(subtree, opaque_,
-            [](CsgTreeBuilder& builder, uint32_t leaf) { builder.primitive(leaf); });
+    add_tree(subtree, opaque_);
     has_opaque_ = true;
   }
 
@@ -151,7 +135,7 @@ class ProductList {
       result_.are_too_many = true;
     }
     CsgTreeBuilder builder;
-    rebuild(subtree, builder, [](CsgTreeBuilder& to, uint32_t leaf) { to.primitive(leaf); });
+    add_tree(subtree, builder);
     add({builder.finish(), false, subtree.size() == 1});
   }
 
@@ -209,7 +193,7 @@ Products products_of(const LeafTree& whole, std::span<const Box> boxes,
                      const std::function<bool(uint32_t)>& is_translucent) {
   const LeafTree tree = pruned(whole, boxes);
   const std::span<const CsgToken> tokens = tree.tokens();
-  const std::vector<uint32_t> firsts = first_tokens(tokens);
+  const CsgSubtrees subtrees(tokens);
   std::vector<uint32_t> translucent_before(tokens.size() + 1, 0);  // leaves
   for (size_t i = 0; i < tokens.size(); ++i) {
     const bool is_one = tokens[i].is_primitive && is_translucent(tokens[i].value);
@@ -221,17 +205,13 @@ Products products_of(const LeafTree& whole, std::span<const Box> boxes,
   while (!summands.empty()) {
     const uint32_t root = summands.back();
     summands.pop_back();
-    const auto subtree = tokens.subspan(firsts[root], root + 1 - firsts[root]);
-    if (translucent_before[root + 1] == translucent_before[firsts[root]]) {
-      products.add_opaque(subtree);
+    if (translucent_before[root + 1] == translucent_before[subtrees.first(root)]) {
+      products.add_opaque(subtrees.tokens(root));
     } else if (tokens[root].is_primitive || tokens[root].op != Op::kUnion) {
-      products.add_translucent(subtree);
+      products.add_translucent(subtrees.tokens(root));
     } else {
-      // From the last operand, which ends before the root, to the first.
-      for (uint32_t end = root, left = tokens[root].value; left > 0; --left) {
-        summands.push_back(end - 1);
-        end = firsts[end - 1];
-      }
+      const std::vector<uint32_t> operands = subtrees.operands(root);
+      summands.insert(summands.end(), operands.rbegin(), operands.rend());
     }
   }
   return products.finish();

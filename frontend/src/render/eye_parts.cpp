@@ -22,31 +22,23 @@ using csgcore::Scene;
 /// another need not be the last: a layer takes as long as a picture.
 constexpr size_t kMostLayers = 32;
 
-void add_tree(std::span<const CsgToken> tokens, CsgTreeBuilder& builder) {
-  rebuild(tokens, builder, [](CsgTreeBuilder& to, uint32_t index) { to.primitive(index); });
-}
-
 /// Finds the leaves in a tree over primitives (the inverse of Leaves::expanded).
 class LeafFinder {
  public:
   LeafFinder(const Scene& scene, std::span<const CsgToken> tokens, Leaves& leaves)
-      : tokens_(tokens), leaves_(leaves) {
-    const auto leaf_of = [&](uint32_t primitive) {
-      return primitive < scene.leaf_of.size() ? scene.leaf_of[primitive] : primitive;
-    };
-    std::vector<uint32_t> operands;  // the roots of those that no operation has taken
+      : tokens_(tokens), subtrees_(tokens), leaves_(leaves) {
     for (uint32_t root = 0; root < tokens.size(); ++root) {
-      Subtree subtree{root, leaf_of(tokens[root].value), {}};
-      if (!tokens[root].is_primitive) {
-        const auto first = operands.end() - tokens[root].value;
-        subtree = {subtrees_[*first].first, subtrees_[*first].leaf, {first, operands.end()}};
-        for (const uint32_t operand : subtree.operands) {
-          if (subtrees_[operand].leaf != subtree.leaf) subtree.leaf = kSeveral;
+      uint32_t leaf = tokens[root].value;
+      if (tokens[root].is_primitive) {
+        if (leaf < scene.leaf_of.size()) leaf = scene.leaf_of[leaf];
+      } else {
+        const std::vector<uint32_t> operands = subtrees_.operands(root);
+        leaf = leaf_of_[operands.front()];
+        for (const uint32_t operand : operands) {
+          if (leaf_of_[operand] != leaf) leaf = kSeveral;
         }
-        operands.erase(first, operands.end());
       }
-      subtrees_.push_back(std::move(subtree));
-      operands.push_back(root);
+      leaf_of_.push_back(leaf);
     }
   }
 
@@ -55,7 +47,7 @@ class LeafFinder {
     CsgTreeBuilder builder;
     const auto last = static_cast<uint32_t>(tokens_.size()) - 1;
     if (tokens_.empty()) return builder.finish();
-    if (subtrees_[last].leaf != kSeveral) {
+    if (leaf_of_[last] != kSeveral) {
       builder.primitive(leaf(Op::kUnion, {&last, 1}));
       return builder.finish();
     }
@@ -73,19 +65,20 @@ class LeafFinder {
       const Op op = tokens_[step.value].op;
       builder.open(op);
       steps.push_back({Step::Kind::kClose, 0});
-      const std::span<const uint32_t> operands = subtrees_[step.value].operands;
+      const std::vector<uint32_t> operands = subtrees_.operands(step.value);
       for (size_t end = operands.size(), begin; end > 0; end = begin) {
         // Adjacent operands of one leaf are that leaf.
-        const uint32_t own = subtrees_[operands[end - 1]].leaf;
+        const uint32_t own = leaf_of_[operands[end - 1]];
         for (begin = end - 1; begin > 0 && own != kSeveral; --begin) {
-          if (subtrees_[operands[begin - 1]].leaf != own) break;
+          if (leaf_of_[operands[begin - 1]] != own) break;
         }
         if (own == kSeveral) {
           steps.push_back({Step::Kind::kSubtree, operands[begin]});
         } else {
           const bool is_subtracted = op == Op::kDifference && begin > 0;
-          steps.push_back({Step::Kind::kLeaf, leaf(is_subtracted ? Op::kUnion : op,
-                                                   operands.subspan(begin, end - begin))});
+          steps.push_back(
+              {Step::Kind::kLeaf, leaf(is_subtracted ? Op::kUnion : op,
+                                       std::span(operands).subspan(begin, end - begin))});
         }
       }
     }
@@ -94,28 +87,21 @@ class LeafFinder {
 
  private:
   static constexpr uint32_t kSeveral = 0xFFFFFFFFu;
-  struct Subtree {
-    uint32_t first;                  // token
-    uint32_t leaf;                   // that all its primitives are of, or kSeveral
-    std::vector<uint32_t> operands;  // their roots
-  };
 
   /// Returns the leaf that is an operation on these subtrees.
   uint32_t leaf(Op op, std::span<const uint32_t> roots) {
     if (roots.size() == 1 && tokens_[roots[0]].is_primitive) return tokens_[roots[0]].value;
     CsgTreeBuilder builder;
     builder.open(op);
-    for (const uint32_t root : roots) {
-      const uint32_t first = subtrees_[root].first;
-      add_tree(tokens_.subspan(first, root + 1 - first), builder);
-    }
+    for (const uint32_t root : roots) add_tree(subtrees_.tokens(root), builder);
     builder.close();
     return leaves_.add(builder.finish(), 0);
   }
 
   std::span<const CsgToken> tokens_;
+  CsgSubtrees subtrees_;
   Leaves& leaves_;
-  std::vector<Subtree> subtrees_;  // by the token that is the root
+  std::vector<uint32_t> leaf_of_;  // by root: that all its primitives are of, or kSeveral
 };
 
 /// Returns OpenSCAD's products of a tree over primitives.

@@ -13,31 +13,6 @@ using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 using csgcore::Vec3;
 
-/// The boxes of all subtrees, in the tokens' order.
-std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, std::span<const Box> boxes) {
-  std::vector<Box> result(tokens.size());
-  std::vector<size_t> operands;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const CsgToken& token = tokens[i];
-    if (token.is_primitive) {
-      result[i] = boxes[token.value];
-    } else {
-      const size_t first = operands.size() - token.value;
-      result[i] = result[operands[first]];
-      for (size_t k = first + 1; k < operands.size(); ++k) {
-        const Box& operand = result[operands[k]];
-        if (token.op == Op::kUnion) result[i].merge(operand);
-        if (token.op == Op::kIntersection) {
-          result[i] = csgcore::intersection(result[i], operand);
-        }
-      }
-      operands.resize(first);
-    }
-    operands.push_back(i);
-  }
-  return result;
-}
-
 /// An operation on the way from the root to a leaf.
 struct OperationAround {
   Op op;
@@ -108,13 +83,10 @@ uint32_t Leaves::first_primitive(uint32_t leaf) const {
 
 CsgTree Leaves::expanded(LeafTree tree) const {
   if (!has_compound()) return tree;
-  const auto add_primitive = [](CsgTreeBuilder& builder, uint32_t index) {
-    builder.primitive(index);
-  };
   CsgTreeBuilder builder;
   rebuild(tree.tokens(), builder, [&](CsgTreeBuilder& to, uint32_t leaf) {
     if (is_compound(leaf)) {
-      rebuild(solid(leaf).tokens(), to, add_primitive);
+      add_tree(solid(leaf).tokens(), to);
     } else {
       to.primitive(leaf);
     }
@@ -156,13 +128,6 @@ Box box_of_positive_leaves(const LeafTree& tree, std::span<const Box> boxes) {
     if (!use.is_subtracted && use.meets_others) result.merge(boxes[use.leaf]);
   });
   return result;
-}
-
-bool is_union(const csgcore::CsgTree& tree) {
-  const auto tokens = tree.tokens();
-  return std::all_of(tokens.begin(), tokens.end(), [](const csgcore::CsgToken& token) {
-    return token.is_primitive || token.op == csgcore::Op::kUnion;
-  });
 }
 
 }  // namespace frontend

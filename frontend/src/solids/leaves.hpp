@@ -12,6 +12,7 @@
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
+#include "solids/csg_subtrees.hpp"
 
 namespace frontend {
 
@@ -56,53 +57,6 @@ class Leaves {
   uint32_t primitive_count_;
   std::vector<Compound> compound_;
 };
-
-/// Returns whether the tree has no operation but unions.
-bool is_union(const csgcore::CsgTree& tree);
-
-/// Calls `builder` as for the subtree whose tokens these are, with add(builder, index) for each
-/// leaf. Subtrees whose root is_empty(root) is true for, given the index of its token, are empty
-/// operands.
-template <typename Add, typename IsEmpty>
-void rebuild(std::span<const csgcore::CsgToken> tokens, csgcore::CsgTreeBuilder& builder,
-             const Add& add, const IsEmpty& is_empty) {
-  // By the index of a token the operations whose first operand starts there, from the innermost.
-  std::vector<std::vector<uint32_t>> opened_at(tokens.size());
-  std::vector<uint32_t> starts;  // of the subtrees that are no operands yet
-  for (uint32_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is_primitive) {
-      starts.push_back(i);
-      continue;
-    }
-    starts.resize(starts.size() - tokens[i].value + 1);
-    opened_at[starts.back()].push_back(i);
-  }
-  uint32_t next = 0;  // the first token that no empty subtree has taken
-  for (uint32_t i = 0; i < tokens.size(); ++i) {
-    for (auto op = opened_at[i].rbegin(); op != opened_at[i].rend() && i >= next; ++op) {
-      if (is_empty(*op)) {
-        builder.empty();
-        next = *op + 1;
-      } else {
-        builder.open(tokens[*op].op);
-      }
-    }
-    if (i < next) continue;
-    if (!tokens[i].is_primitive) {
-      builder.close();
-    } else if (is_empty(i)) {
-      builder.empty();
-    } else {
-      add(builder, tokens[i].value);
-    }
-  }
-}
-
-template <typename Add>
-void rebuild(std::span<const csgcore::CsgToken> tokens, csgcore::CsgTreeBuilder& builder,
-             const Add& add) {
-  rebuild(tokens, builder, add, [](uint32_t) { return false; });
-}
 
 /// The tree without what boxes tell is empty: an intersection of disjoint boxes, and subtracted
 /// operands whose box misses what they are subtracted from. OpenSCAD leaves these out. `boxes`

@@ -9,7 +9,7 @@
 
 #include "csgcore/csg_tree.hpp"
 #include "plane/figure.hpp"
-#include "solids/leaves.hpp"
+#include "solids/csg_subtrees.hpp"
 
 namespace frontend {
 

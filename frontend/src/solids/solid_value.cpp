@@ -9,7 +9,6 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "solids/faceted_box.hpp"
-#include "solids/leaves.hpp"
 
 namespace frontend {
 namespace {
@@ -112,26 +111,18 @@ SolidPart part_of(SupportSet body, const Box& box) {
 
 std::vector<SolidValue> operands_of_union(const SolidValue& value) {
   const std::span<const csgcore::CsgToken> tokens = value.tree.tokens();
-  std::vector<size_t> starts;  // of the subtrees that no operation has taken
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const bool is_last = i + 1 == tokens.size();
-    if (tokens[i].is_primitive) {
-      starts.push_back(i);
-    } else if (!(is_last && tokens[i].op == Op::kUnion)) {
-      starts.resize(starts.size() - tokens[i].value + 1);
-    }
-  }
-  const size_t end = starts.size() > 1 ? tokens.size() - 1 : tokens.size();
   std::vector<SolidValue> result;
-  for (size_t i = 0; i < starts.size(); ++i) {
-    const size_t next = i + 1 < starts.size() ? starts[i + 1] : end;
+  if (tokens.empty()) return result;
+  const CsgSubtrees subtrees(tokens);
+  const auto last = static_cast<uint32_t>(tokens.size()) - 1;
+  const bool is_union = !tokens[last].is_primitive && tokens[last].op == Op::kUnion;
+  for (const uint32_t root : is_union ? subtrees.operands(last) : std::vector{last}) {
     SolidValue& operand = result.emplace_back();
     CsgTreeBuilder builder;
-    rebuild(tokens.subspan(starts[i], next - starts[i]), builder,
-            [&](CsgTreeBuilder& to, uint32_t part) {
-              to.primitive(static_cast<uint32_t>(operand.parts.size()));
-              operand.parts.push_back(value.parts[part]);
-            });
+    rebuild(subtrees.tokens(root), builder, [&](CsgTreeBuilder& to, uint32_t part) {
+      to.primitive(static_cast<uint32_t>(operand.parts.size()));
+      operand.parts.push_back(value.parts[part]);
+    });
     operand.tree = builder.finish();
   }
   return result;
