@@ -11,6 +11,7 @@
 #include "arrangement/facet_trees.hpp"
 #include "arrangement/manifold_edges.hpp"
 #include "arrangement/merged_faces.hpp"
+#include "arrangement/needed_facets.hpp"
 #include "arrangement/pieces.hpp"
 #include "arrangement/separate_parts.hpp"
 #include "arrangement/sheets.hpp"
@@ -174,9 +175,10 @@ BoundaryMesh mesh_of_part(std::span<const TriangleSet> all, const SeparatePart& 
   if (is_simple) return mesh_of_simple(facets);
   const FacetTrees trees(facets, operands.size());
   const Covers covers(facets, trees, part.tokens, may_cross_itself);
-  const CellTree cells(facets, trees, part.tokens, may_cross_itself, covers);
+  const NeededFacets needed = needed_facets(facets, trees, covers, may_cross_itself);
+  const CellTree cells(facets, trees, part.tokens, may_cross_itself, needed.firsts);
   const Sheets sheets = sheets_of(facets, cells.pairs(), covers);
-  const Pieces pieces(facets, cells, sheets);
+  const Pieces pieces(facets, needed, cells, sheets);
   return BoundaryMaker(facets, may_cross_itself, cells, pieces).run();
 }
 

@@ -10,7 +10,6 @@
 #include <numeric>
 #include <optional>
 
-#include "arrangement/needed_facets.hpp"
 #include "arrangement/sorted_by_key.hpp"
 #include "csgcore/stop_scope.hpp"
 
@@ -75,6 +74,10 @@ class CellTree::Builder {
 
   void build(Cell& cell, int depth) {
     stop_point();
+    const FacetBox box = box_between(cell.corner, cell.top);
+    std::erase_if(cell.facets, [&](uint32_t place) {
+      return !box.holds(box_of(place)) && !trees_.may_meet(needed_[place], box);
+    });
     restrict(cell);
     if (cell.facets.empty()) return;
     if (cell.alone) {
@@ -260,7 +263,10 @@ class CellTree::Builder {
       for (size_t j = i + 1; j < boxed.size() && boxed[j].box.min[0] <= item.box.max[0]; ++j) {
         const Boxed& other = boxed[j];
         if (item.operand == other.operand && item.operand != kNoPlace) continue;
-        if (item.box.meets(other.box)) pairs.push_back(std::minmax(item.place, other.place));
+        if (item.box.meets(other.box) && trees_.may_meet(needed_[item.place], other.box) &&
+            trees_.may_meet(needed_[other.place], item.box)) {
+          pairs.push_back(std::minmax(item.place, other.place));
+        }
       }
     }
     return pairs;
@@ -274,10 +280,9 @@ class CellTree::Builder {
 };
 
 CellTree::CellTree(const Facets& facets, const FacetTrees& trees, std::span<const CsgToken> tree,
-                   const std::vector<bool>& may_cross_itself, const Covers& covers)
+                   const std::vector<bool>& may_cross_itself, const std::vector<uint32_t>& divided)
     : facets_(facets), trees_(trees) {
-  const std::vector<uint32_t> needed = needed_facets(facets, trees, covers);
-  Builder(*this, may_cross_itself, needed).run(tree, *this);
+  Builder(*this, may_cross_itself, divided).run(tree, *this);
 }
 
 CellTree::~CellTree() = default;

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "arrangement/covers.hpp"
 #include "arrangement/exact_center.hpp"
 #include "arrangement/facet_trees.hpp"
 #include "arrangement/tree_values.hpp"
@@ -25,9 +24,9 @@ struct KeptFace {
 
 class CellTree {
  public:
-  /// Keeps references to the facets and the trees.
+  /// Divides these facets. Keeps references to all facets and to the trees.
   CellTree(const Facets& facets, const FacetTrees& trees, std::span<const CsgToken> tree,
-           const std::vector<bool>& may_cross_itself, const Covers& covers);
+           const std::vector<bool>& may_cross_itself, const std::vector<uint32_t>& divided);
   ~CellTree();
   CellTree(const CellTree&) = delete;
   CellTree& operator=(const CellTree&) = delete;

@@ -1,9 +1,10 @@
 #include "arrangement/facet_trees.hpp"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -39,17 +40,37 @@ FacetBox box_between(const GridPoint& least, const GridPoint& most) {
   return box;
 }
 
+/// Spreads the lowest 20 bits: two zeros come after each.
+uint64_t spread(uint64_t bits) {
+  bits = (bits | bits << 32) & 0x001f00000000ffffu;
+  bits = (bits | bits << 16) & 0x001f0000ff0000ffu;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00fu;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3u;
+  return (bits | bits << 2) & 0x1249249249249249u;
+}
+
 class BoxTree::Builder {
  public:
   explicit Builder(std::span<const FacetBox> boxes) : boxes_(boxes), items_(boxes.size()) {
+    FacetBox all = boxes.front();
+    for (const FacetBox& box : boxes) all.merge(box);
+    float longest = 0;
+    for (size_t i = 0; i < 3; ++i) longest = std::max(longest, all.max[i] - all.min[i]);
+    // The doubled centres get 20 bits along each axis.
+    const float scale = longest > 0 ? 0x1p19f / longest : 0.0f;
     for (uint32_t i = 0; i < items_.size(); ++i) {
-      items_[i].number = i;
-      for (size_t j = 0; j < 3; ++j) items_[i].center[j] = boxes[i].min[j] + boxes[i].max[j];
+      items_[i] = {0, i};
+      for (size_t j = 0; j < 3; ++j) {
+        const float center = (boxes[i].min[j] - all.min[j]) + (boxes[i].max[j] - all.min[j]);
+        items_[i].code |= spread(static_cast<uint64_t>(center * scale)) << j;
+      }
     }
+    tbb::parallel_sort(items_.begin(), items_.end());
   }
 
   std::vector<Node> nodes() {
     std::vector<Node> result;
+    result.reserve(items_.size());
     build(0, static_cast<uint32_t>(items_.size()), result);
     return result;
   }
@@ -61,77 +82,44 @@ class BoxTree::Builder {
   }
 
  private:
+  /// A box, and where its centre lies on Morton's curve.
   struct Item {
-    std::array<float, 3> center;
+    uint64_t code;
     uint32_t number;
+    auto operator<=>(const Item&) const = default;
   };
 
-  /// Appends the nodes. Recurses as deep as the tree is, which is balanced.
+  /// Appends the nodes. Recurses as deep as the tree is: once a bit, and where codes are
+  /// equal it is balanced.
   void build(uint32_t begin, uint32_t end, std::vector<Node>& nodes) {
     const auto number = static_cast<uint32_t>(nodes.size());
     constexpr uint32_t kFew = 4;
-    constexpr uint32_t kManyAtOnce = 16'384;
     if (end - begin <= kFew) {
-      // What std::nth_element leaves open does not count.
-      std::ranges::sort(items(begin, end), {}, &Item::number);
       FacetBox box = boxes_[items_[begin].number];
-      for (const Item& item : items(begin, end)) box.merge(boxes_[item.number]);
+      for (uint32_t i = begin; i < end; ++i) box.merge(boxes_[items_[i].number]);
       nodes.push_back({box, begin, end, number + 1});
       return;
     }
-    const uint32_t middle = begin + (end - begin) / 2;
-    divide(begin, middle, end);
+    const uint32_t middle = middle_of(begin, end);
     nodes.push_back({{}, begin, end, 0});
     const uint32_t low = number + 1;
-    if (end - begin < kManyAtOnce) {
-      build(begin, middle, nodes);
-      build(middle, end, nodes);
-    } else {
-      std::array<std::vector<Node>, 2> halves;
-      const std::stop_token* const stop = stop_of_work;
-      const auto build_half = [&](uint32_t from, uint32_t to, std::vector<Node>& half) {
-        const StopScope scope(stop);
-        stop_point();
-        build(from, to, half);
-      };
-      tbb::parallel_invoke([&] { build_half(begin, middle, halves[0]); },
-                           [&] { build_half(middle, end, halves[1]); });
-      for (const std::vector<Node>& half : halves) {
-        const auto first = static_cast<uint32_t>(nodes.size());
-        for (const Node& node : half) {
-          nodes.push_back({node.box, node.begin, node.end, node.after + first});
-        }
-      }
-    }
+    build(begin, middle, nodes);
+    build(middle, end, nodes);
     nodes[number].after = static_cast<uint32_t>(nodes.size());
     nodes[number].box = nodes[low].box;
     nodes[number].box.merge(nodes[nodes[low].after].box);
   }
 
-  /// Puts those of lesser centres along the longest axis before the middle.
-  void divide(uint32_t begin, uint32_t middle, uint32_t end) {
-    std::array<float, 3> least = items_[begin].center;
-    std::array<float, 3> most = least;
-    for (const Item& item : items(begin, end)) {
-      for (size_t i = 0; i < 3; ++i) {
-        least[i] = std::min(least[i], item.center[i]);
-        most[i] = std::max(most[i], item.center[i]);
-      }
-    }
-    size_t axis = 0;
-    for (size_t i = 1; i < 3; ++i) {
-      if (most[i] - least[i] > most[axis] - least[axis]) axis = i;
-    }
-    const std::span<Item> all = items(begin, end);
-    std::nth_element(all.begin(), all.begin() + (middle - begin), all.end(),
-                     [axis](const Item& a, const Item& b) {
-                       return a.center[axis] < b.center[axis] ||
-                              (a.center[axis] == b.center[axis] && a.number < b.number);
-                     });
-  }
-
-  std::span<Item> items(uint32_t begin, uint32_t end) {
-    return std::span(items_).subspan(begin, end - begin);
+  /// Returns where the highest bit changes in which codes differ, so that the halves lie on both
+  /// sides of a plane.
+  uint32_t middle_of(uint32_t begin, uint32_t end) const {
+    const uint64_t differing = items_[begin].code ^ items_[end - 1].code;
+    if (differing == 0) return begin + (end - begin) / 2;
+    const uint64_t bit = std::bit_floor(differing);
+    const auto place =
+        std::partition_point(items_.begin() + begin, items_.begin() + end,
+                             [bit](const Item& item) { return (item.code & bit) == 0; });
+    return static_cast<uint32_t>(place - items_.begin());
   }
 
   std::span<const FacetBox> boxes_;
@@ -177,14 +165,43 @@ FacetTrees::FacetTrees(Facets& facets, size_t operands)
   for (Facets::Touch& touch : facets.touches) touch.facet = place_of[touch.facet];
 }
 
-bool FacetTrees::meet(uint32_t operand, const FacetBox& box) const {
+bool FacetTrees::is_beside_plane(const std::array<GridPoint, 3>& corners, const FacetBox& box) {
+  const Vec3 origin = to_vec3(corners[0]);
+  const Vec3 p = to_vec3(corners[1]) - origin;
+  const Vec3 q = to_vec3(corners[2]) - origin;
+  // The height of the box's middle over the plane, and of its corners over the middle. `most` has
+  // all terms by their magnitudes.
+  double height = 0;
+  double reach = 0;
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<size_t>(i);
+    const int j = kNextAxis[i];
+    const int k = kNextAxis[i + 1];
+    const double left = p[j] * q[k];
+    const double right = p[k] * q[j];
+    const double middle = (double{box.min[axis]} + double{box.max[axis]}) / 2 - origin[i];
+    const double half = (double{box.max[axis]} - double{box.min[axis]}) / 2;
+    height += (left - right) * middle;
+    reach += std::abs(left - right) * half;
+    most += (std::abs(left) + std::abs(right)) * (std::abs(middle) + half);
+  }
+  // Ten roundings at most of half an ulp each.
+  constexpr double kRounding = 16 * 0x1p-53;
+  return std::abs(height) > reach + kRounding * most;
+}
+
+bool FacetTrees::meet(uint32_t operand, const FacetBox& box, uint32_t node) const {
+  const uint32_t first_facet = first(operand);
   return trees_[operand].visit([&](const FacetBox& other) { return box.meets(other); },
                                [&](uint32_t begin, uint32_t end) {
-                                 for (uint32_t facet = begin; facet < end; ++facet) {
-                                   if (box.meets(boxes_[facet + first(operand)])) return true;
+                                 for (uint32_t facet = begin + first_facet;
+                                      facet < end + first_facet; ++facet) {
+                                   if (may_meet(facet, box)) return true;
                                  }
                                  return false;
-                               });
+                               },
+                               node);
 }
 
 }  // namespace csgcore

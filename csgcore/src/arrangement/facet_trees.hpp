@@ -61,10 +61,11 @@ class BoxTree {
   bool is_leaf(uint32_t node) const { return nodes_[node].after == node + 1; }
 
   /// Calls visit(begin, end) for the leaves whose boxes, as those of the nodes above them,
-  /// `is_wanted` takes, until it returns true. Returns whether it did.
+  /// `is_wanted` takes, until it returns true. Returns whether it did. It starts at a node.
   template <class IsWanted, class Visit>
-  bool visit(IsWanted is_wanted, Visit visit) const {
-    for (uint32_t i = 0; i < nodes_.size();) {
+  bool visit(IsWanted is_wanted, Visit visit, uint32_t node_number = 0) const {
+    const auto end = nodes_.empty() ? 0 : nodes_[node_number].after;
+    for (uint32_t i = node_number; i < end;) {
       const Node& node = nodes_[i];
       if (!is_wanted(node.box)) {
         i = node.after;
@@ -97,8 +98,14 @@ class FacetTrees {
   const FacetBox& box(uint32_t operand) const { return trees_[operand].nodes().front().box; }
   const FacetBox& facet_box(uint32_t facet) const { return boxes_[facet]; }
 
-  /// Returns whether the box of any of the operand's facets meets this one.
-  bool meet(uint32_t operand, const FacetBox& box) const;
+  /// Returns whether the facet may meet the box. False is right: their boxes are apart, or the box
+  /// lies on one side of the facet's plane.
+  bool may_meet(uint32_t facet, const FacetBox& box) const {
+    return box.meets(boxes_[facet]) &&
+           (box.holds(boxes_[facet]) || !is_beside_plane(facets_.corners(facet), box));
+  }
+  /// Returns whether any of the facets in a node of the operand's tree may meet the box.
+  bool meet(uint32_t operand, const FacetBox& box, uint32_t node = 0) const;
 
   /// Returns how often the operand's facets, but for those that `is_left_out` takes, wind around a
   /// point that is on none of them: one of exact_center.hpp. It looks along the axis.
@@ -126,6 +133,9 @@ class FacetTrees {
   }
 
  private:
+  /// Returns whether the box surely lies on one side of the plane through the corners.
+  static bool is_beside_plane(const std::array<GridPoint, 3>& corners, const FacetBox& box);
+
   /// Returns what the way from the point along the axis leaves of the facet's solid: 1 if it passes
   /// the facet from behind, -1 from ahead, 0 if it does not.
   template <class Point>

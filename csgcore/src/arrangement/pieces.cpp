@@ -20,8 +20,9 @@ struct SideOfPiece {
 
 }  // namespace
 
-Pieces::Pieces(const Facets& facets, const CellTree& cells, const Sheets& sheets)
-    : facets_(facets), sheets_(sheets), corner_count_(facets.points.size()) {
+Pieces::Pieces(const Facets& facets, const NeededFacets& needed, const CellTree& cells,
+               const Sheets& sheets)
+    : facets_(facets), needed_(needed), sheets_(sheets), corner_count_(facets.points.size()) {
   number_points();
   add_pieces(cells);
   find_patches(cells);
@@ -97,6 +98,9 @@ void Pieces::add_pieces(const CellTree& cells) {
   }
   for (const uint32_t facet : cells.others()) piece_of_[facet] = kMatters;
   for (uint32_t i = 0; i < piece_of_.size(); ++i) {
+    // The first facet of a patch tells whether it matters.
+    const uint32_t first = needed_.first_of[i];
+    if (first != kNoPlace) piece_of_[i] = piece_of_[first];
     if (sheets_.is_divided[i]) piece_of_[i] = kNoPlace;
     if (piece_of_[i] == kNoPlace) continue;
     piece_of_[i] = static_cast<uint32_t>(pieces_.size());
@@ -134,6 +138,10 @@ void Pieces::find_patches(const CellTree& cells) {
   }
   std::vector<SideOfPiece> sides;
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
+    if (is_represented(pieces_[i])) {
+      patches.join(piece_of_[needed_.first_of[pieces_[i].cover]], i);
+      continue;
+    }
     if (!is_compared_[i]) continue;
     const auto& points = pieces_[i].points;
     for (size_t j = 0; j < 3; ++j) {

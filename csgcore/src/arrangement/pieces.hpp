@@ -7,6 +7,7 @@
 
 #include "arrangement/cell_tree.hpp"
 #include "arrangement/facet_grid.hpp"
+#include "arrangement/needed_facets.hpp"
 #include "arrangement/sheets.hpp"
 
 namespace csgcore {
@@ -22,7 +23,8 @@ struct Piece {
 class Pieces {
  public:
   /// Keeps references to all arguments.
-  Pieces(const Facets& facets, const CellTree& cells, const Sheets& sheets);
+  Pieces(const Facets& facets, const NeededFacets& needed, const CellTree& cells,
+         const Sheets& sheets);
 
   /// Facets first, then the triangles of sheets.
   const std::vector<Piece>& all() const { return pieces_; }
@@ -53,7 +55,13 @@ class Pieces {
   void add_pieces(const CellTree& cells);
   void find_patches(const CellTree& cells);
 
+  /// Returns whether the piece is a facet that another one stands for.
+  bool is_represented(const Piece& piece) const {
+    return piece.sheet == kNoPlace && needed_.first_of[piece.cover] != piece.cover;
+  }
+
   const Facets& facets_;
+  const NeededFacets& needed_;
   const Sheets& sheets_;
   size_t corner_count_;
   std::vector<const ArrangedPoint*> named_;     // points that are no corners

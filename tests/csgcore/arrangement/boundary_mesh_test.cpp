@@ -374,14 +374,26 @@ struct Placed {
   csgcore::Covers covers;
 };
 
+struct Needed {
+  std::vector<size_t> facets;   // by operand
+  std::vector<size_t> patches;  // by operand
+};
+
+Needed patches_of(const std::vector<MeshParts>& operands, const CsgTree& tree) {
+  const Placed placed(operands, tree);
+  const csgcore::NeededFacets needed =
+      csgcore::needed_facets(placed.facets, placed.trees, placed.covers, placed.may_cross);
+  Needed result{std::vector<size_t>(operands.size()), std::vector<size_t>(operands.size())};
+  for (uint32_t i = 0; i < needed.first_of.size(); ++i) {
+    if (needed.first_of[i] != csgcore::kNoPlace) ++result.facets[placed.facets.facets[i].operand];
+  }
+  for (const uint32_t first : needed.firsts) ++result.patches[placed.facets.facets[first].operand];
+  return result;
+}
+
 /// Returns how many facets of each operand are needed.
 std::vector<size_t> needed_of(const std::vector<MeshParts>& operands, const CsgTree& tree) {
-  const Placed placed(operands, tree);
-  std::vector<size_t> result(operands.size(), 0);
-  for (const uint32_t facet : csgcore::needed_facets(placed.facets, placed.trees, placed.covers)) {
-    ++result[placed.facets.facets[facet].operand];
-  }
-  return result;
+  return patches_of(operands, tree).facets;
 }
 
 TEST(NeededFacets, AreThoseThatNoOtherOperandDecides) {
@@ -401,6 +413,24 @@ TEST(NeededFacets, AreThoseThatNoOtherOperandDecides) {
   EXPECT_EQ(together[2], 0u);
   EXPECT_EQ(together[3], parts[3].triangles.size());
   EXPECT_THAT(needed_of(parts, flat_tree(Op::kIntersection, 4)), ElementsAre(0u, 0u, 0u, 0u));
+}
+
+TEST(NeededFacets, AreOnePatchWhereNoOtherSurfaceComesNear) {
+  using testing::ElementsAre;
+  // A ball that a thin board divides: both halves, and each facet near the board by itself.
+  const std::vector<MeshParts> parts{test_support::icosphere_parts(3, 4),
+                                     box(Vec3(-5, -5, 0.1), Vec3(10, 10, 0.1)), cube(Vec3(20), 1)};
+  const Needed needed = patches_of(parts, flat_tree(Op::kUnion, 3));
+  EXPECT_EQ(needed.facets[0], parts[0].triangles.size());
+  EXPECT_GT(needed.patches[0], 2u);
+  EXPECT_LT(needed.patches[0], needed.facets[0] / 4);
+  EXPECT_EQ(needed.patches[2], 1u);
+  // None of a surface that may cross itself.
+  const std::vector<MeshParts> twice{
+      test_support::joined({test_support::icosphere_parts(3, 1),
+                            test_support::icosphere_parts(3, 1).moved({1, 0.1, 0.2})})};
+  const Needed crossing = patches_of(twice, flat_tree(Op::kUnion, 1));
+  EXPECT_EQ(crossing.patches[0], twice[0].triangles.size());
 }
 
 TEST(NeededFacets, AreThoseOfOperandsThatTheTreeHasTwice) {
