@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -59,30 +60,37 @@ class FaceMerger {
     if (merged_.empty()) return result;
     find_edges();
     find_corners();
-    // The pieces and the edges of each face.
-    std::vector<uint32_t> number_of(kept_.size(), kNoPlace);  // by a face's first piece
-    std::vector<std::vector<uint32_t>> pieces;
-    std::vector<std::vector<FaceEdge>> edges;
-    const auto number = [&](uint32_t piece) {
-      uint32_t& result_number = number_of[faces_.find(piece)];
-      if (result_number == kNoPlace) {
-        result_number = static_cast<uint32_t>(pieces.size());
-        pieces.emplace_back();
-        edges.emplace_back();
-      }
-      return result_number;
+    const auto face_of = [&](uint32_t piece) { return faces_.find(piece); };
+    sort_by_key(merged_, kept_.size(), face_of);
+    sort_by_key(edges_, kept_.size(), [&](const FaceEdge& edge) { return face_of(edge.piece); });
+    struct Face {
+      std::span<const uint32_t> pieces;
+      std::span<const FaceEdge> edges;
+      std::vector<FaceTriangle> triangles;  // empty: its pieces' triangles
     };
-    for (const uint32_t piece : merged_) pieces[number(piece)].push_back(piece);
-    for (const FaceEdge& edge : edges_) edges[number(edge.piece)].push_back(edge);
-    std::vector<std::vector<FaceTriangle>> triangles(pieces.size());
+    std::vector<Face> faces;
+    size_t edge = 0;
+    for (size_t begin = 0; begin < merged_.size();) {
+      const uint32_t face = face_of(merged_[begin]);
+      size_t end = begin;
+      while (end < merged_.size() && face_of(merged_[end]) == face) ++end;
+      const size_t first_edge = edge;
+      while (edge < edges_.size() && face_of(edges_[edge].piece) == face) ++edge;
+      faces.push_back({std::span(merged_).subspan(begin, end - begin),
+                       std::span(edges_).subspan(first_edge, edge - first_edge),
+                       {}});
+      begin = end;
+    }
     const std::stop_token* const stop = stop_of_work;
-    tbb::parallel_for(size_t{0}, pieces.size(), [&](size_t i) {
+    tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
       const StopScope scope(stop);
       stop_point();
-      triangles[i] = face(pieces[i], edges[i]);
+      faces[i].triangles = triangles_of(faces[i].pieces, faces[i].edges);
     });
-    for (const auto& of_face : triangles) {
-      result.insert(result.end(), of_face.begin(), of_face.end());
+    for (const Face& face : faces) {
+      result.insert(result.end(), face.triangles.begin(), face.triangles.end());
+      if (!face.triangles.empty()) continue;
+      for (const uint32_t i : face.pieces) result.push_back(kept_[i].triangle);
     }
     return result;
   }
@@ -156,7 +164,7 @@ class FaceMerger {
 
   /// Returns the points that a face with these edges leaves out: where its outline runs straight
   /// on. At the end of a cut into it, it turns back, though other faces may run on.
-  std::unordered_set<uint32_t> left_out(const std::vector<FaceEdge>& edges) const {
+  std::unordered_set<uint32_t> left_out(std::span<const FaceEdge> edges) const {
     std::unordered_map<uint32_t, uint32_t> neighbor_of;
     std::unordered_set<uint32_t> result;
     for (const FaceEdge& edge : edges) {
@@ -181,16 +189,24 @@ class FaceMerger {
     return to;
   }
 
-  std::vector<FaceTriangle> unmerged(const std::vector<uint32_t>& pieces) const {
-    std::vector<FaceTriangle> result;
-    for (const uint32_t i : pieces) result.push_back(kept_[i].triangle);
-    return result;
+  /// Returns whether all corners of the pieces are on the outline, which has these edges.
+  bool are_on_outline(std::span<const uint32_t> pieces, std::span<const FaceEdge> edges) const {
+    std::vector<uint32_t> outline;
+    outline.reserve(edges.size());
+    for (const FaceEdge& edge : edges) outline.push_back(edge.from);
+    std::ranges::sort(outline);
+    return std::ranges::all_of(pieces, [&](uint32_t i) {
+      return std::ranges::all_of(kept_[i].triangle.points, [&](uint32_t point) {
+        return std::ranges::binary_search(outline, point);
+      });
+    });
   }
 
-  std::vector<FaceTriangle> face(const std::vector<uint32_t>& pieces,
-                                 const std::vector<FaceEdge>& edges) const {
+  /// Returns the triangles of the face; none: it has those of its pieces.
+  std::vector<FaceTriangle> triangles_of(std::span<const uint32_t> pieces,
+                                         std::span<const FaceEdge> edges) const {
     const std::unordered_set<uint32_t> passed = left_out(edges);
-    if (pieces.size() == 1 && passed.empty()) return unmerged(pieces);
+    if (passed.empty() && are_on_outline(pieces, edges)) return {};
     const int axis = pieces_.axis(piece(pieces.front()));
     std::vector<std::pair<uint32_t, uint32_t>> outline;
     std::unordered_map<uint32_t, ArrangedPoint> points;
@@ -229,7 +245,7 @@ class FaceMerger {
         drawing.draw(drawn.at(outline[i].first), drawn.at(outline[i].second), i);
       }
     } catch (const OutlineCrosses&) {
-      return unmerged(pieces);
+      return {};
     }
     const bool is_left = turn(pieces_.point(kept_[pieces.front()].triangle.points[0]),
                               pieces_.point(kept_[pieces.front()].triangle.points[1]),
@@ -239,7 +255,7 @@ class FaceMerger {
       auto [a, b, c] = drawing.triangles()[i].points;
       if (!is_left) std::swap(b, c);
       // The outline of an open surface need not be closed.
-      if (std::min({a, b, c}) < PlanarSubdivision::kBorderPoints) return unmerged(pieces);
+      if (std::min({a, b, c}) < PlanarSubdivision::kBorderPoints) return {};
       result.push_back({{names[a], names[b], names[c]}, kept_[pieces.front()].triangle.operand});
     }
     return result;
