@@ -133,8 +133,9 @@ class BoundaryMaker {
       const std::array<ArrangedPoint, 3> points{
           pieces_.point(point_of[a]), pieces_.point(point_of[b]), pieces_.point(point_of[c])};
       constexpr std::array kAxes{0, 1, 2};
-      return std::ranges::all_of(
-          kAxes, [&](int axis) { return turn(points[0], points[1], points[2], axis) == 0; });
+      return std::ranges::all_of(kAxes, [&](int axis) {
+        return turn(facets_, points[0], points[1], points[2], axis) == 0;
+      });
     });
     return result;
   }

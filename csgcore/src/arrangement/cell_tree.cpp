@@ -289,7 +289,7 @@ CellTree::~CellTree() = default;
 
 KeptFace CellTree::kept(const std::array<const ArrangedPoint*, 3>& triangle, int axis,
                         std::span<const uint32_t> over) const {
-  const MovedCenter center(triangle);
+  const MovedCenter center(facets_, triangle);
   const Cell* cell = root_.get();
   // Rounding may choose the cell beside the right one. A facet in it reaches the plane between
   // them, too, or stands a unit away from it.

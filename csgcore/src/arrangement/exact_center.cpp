@@ -8,10 +8,10 @@ namespace {
 /// The distance within which a rounded centre is not to be trusted.
 constexpr double kCenterError = 2 * kPointError;
 
-ExactCenter center_of(const std::array<const ArrangedPoint*, 3>& triangle) {
+ExactCenter center_of(const Facets& facets, const std::array<const ArrangedPoint*, 3>& triangle) {
   std::array<ExactPoint, 3> points;
   for (size_t i = 0; i < 3; ++i) {
-    points[i] = triangle[i]->is_on_grid ? exact_point(triangle[i]->grid) : triangle[i]->exact;
+    points[i] = exact_point(facets, *triangle[i]);
   }
   const auto& [a, b, c] = points;
   ExactCenter result;
@@ -55,12 +55,13 @@ int MovedPoint::side(const GridPlane& plane) const {
   return result != 0 ? result : side_of_moved(plane);
 }
 
-MovedCenter::MovedCenter(const std::array<const ArrangedPoint*, 3>& triangle)
-    : triangle_(triangle),
+MovedCenter::MovedCenter(const Facets& facets, const std::array<const ArrangedPoint*, 3>& triangle)
+    : facets_(facets),
+      triangle_(triangle),
       position_((triangle[0]->position + triangle[1]->position + triangle[2]->position) / 3.0) {}
 
 const ExactCenter& MovedCenter::exact() const {
-  if (!has_exact_) exact_ = center_of(triangle_);
+  if (!has_exact_) exact_ = center_of(facets_, triangle_);
   has_exact_ = true;
   return exact_;
 }

@@ -32,8 +32,8 @@ class MovedPoint {
 /// The centre of a triangle, moved.
 class MovedCenter {
  public:
-  /// Keeps references to the points.
-  explicit MovedCenter(const std::array<const ArrangedPoint*, 3>& triangle);
+  /// Keeps references to the facets and the points.
+  MovedCenter(const Facets& facets, const std::array<const ArrangedPoint*, 3>& triangle);
 
   /// Off by less than 2·kPointError.
   const Vec3& position() const { return position_; }
@@ -43,6 +43,7 @@ class MovedCenter {
  private:
   const ExactCenter& exact() const;
 
+  const Facets& facets_;
   std::array<const ArrangedPoint*, 3> triangle_;
   Vec3 position_;
   mutable bool has_exact_ = false;

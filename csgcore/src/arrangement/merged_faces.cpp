@@ -154,8 +154,9 @@ class FaceMerger {
       FaceCorner& corner = corners_[corner_at_[edge.from]];
       if (corner.count != 2) continue;
       const int axis = pieces_.axis(piece(edge.piece));
-      const bool is_straight = turn(pieces_.point(corner.neighbors[0]), pieces_.point(edge.from),
-                                    pieces_.point(corner.neighbors[1]), axis) == 0;
+      const bool is_straight =
+          turn(pieces_.all_facets(), pieces_.point(corner.neighbors[0]), pieces_.point(edge.from),
+               pieces_.point(corner.neighbors[1]), axis) == 0;
       corner.count = is_straight ? 0 : 3;
     }
   }
@@ -228,7 +229,8 @@ class FaceMerger {
       }
     }
     PlanarSubdivision drawing(
-        axis, [](uint32_t, uint32_t, auto&) -> ArrangedPoint { throw OutlineCrosses(); });
+        pieces_.all_facets(), axis,
+        [](uint32_t, uint32_t, auto&) -> ArrangedPoint { throw OutlineCrosses(); });
     drawing.start_around(least, most);
     // By point of the drawing.
     std::vector<uint32_t> names(PlanarSubdivision::kBorderPoints, kNoPlace);
@@ -247,9 +249,10 @@ class FaceMerger {
     } catch (const OutlineCrosses&) {
       return {};
     }
-    const bool is_left = turn(pieces_.point(kept_[pieces.front()].triangle.points[0]),
-                              pieces_.point(kept_[pieces.front()].triangle.points[1]),
-                              pieces_.point(kept_[pieces.front()].triangle.points[2]), axis) > 0;
+    const bool is_left =
+        turn(pieces_.all_facets(), pieces_.point(kept_[pieces.front()].triangle.points[0]),
+             pieces_.point(kept_[pieces.front()].triangle.points[1]),
+             pieces_.point(kept_[pieces.front()].triangle.points[2]), axis) > 0;
     std::vector<FaceTriangle> result;
     for (const uint32_t i : inside(drawing)) {
       auto [a, b, c] = drawing.triangles()[i].points;

@@ -26,6 +26,7 @@ class Pieces {
   Pieces(const Facets& facets, const NeededFacets& needed, const CellTree& cells,
          const Sheets& sheets);
 
+  const Facets& all_facets() const { return facets_; }
   /// Facets first, then the triangles of sheets.
   const std::vector<Piece>& all() const { return pieces_; }
   /// Returns the facet's place among them; kNoPlace: it is part of a sheet, or matters nowhere.

@@ -12,8 +12,49 @@ glm::dvec2 drawn(const ArrangedPoint& point, int axis) {
   return {point.position[u_axis(axis)], point.position[v_axis(axis)]};
 }
 
-ExactPoint exact(const ArrangedPoint& point) {
-  return point.is_on_grid ? exact_point(point.grid) : point.exact;
+bool is_corner(const ArrangedPoint& point) { return point.name.kind() == PointName::kCorner; }
+
+GridPoint on_grid(const ArrangedPoint& corner) {
+  const auto& [x, y, z] = std::array{corner.position.x, corner.position.y, corner.position.z};
+  return {static_cast<int64_t>(x), static_cast<int64_t>(y), static_cast<int64_t>(z)};
+}
+
+/// Returns the point that a name defines which is no corner's.
+ExactPoint exact_point(const Facets& facets, const PointName& name) {
+  const auto& [kind, a, b, c, d] = name.numbers;
+  const auto& points = facets.points;
+  if (name.kind() == PointName::kEdgeAndFacet) return meet(points[a], points[b], facets.plane(c));
+  if (name.kind() == PointName::kThreeFacets) {
+    return meet(facets.plane(a), facets.plane(b), facets.plane(c));
+  }
+  // One end of the second edge is not on the first one's line.
+  GridPlane plane = plane_through(points[a], points[b], points[c]);
+  if (plane.normal == std::array<Int128, 3>{})
+    plane = plane_through(points[a], points[b], points[d]);
+  return meet(points[a], points[b], plane_along(points[c], points[d], plane.axis()));
+}
+
+/// Returns whether the points' names are one. The corners around a drawing have none.
+bool are_same(const ArrangedPoint& a, const ArrangedPoint& b) {
+  return a.name == b.name && a.position == b.position;
+}
+
+/// Returns whether the names say that the points lie on one edge of facets.
+bool are_on_one_edge(const std::array<const ArrangedPoint*, 3>& points) {
+  const auto all_are_on = [&](uint32_t low, uint32_t high) {
+    return std::ranges::all_of(points, [&](const ArrangedPoint* point) {
+      const auto& [kind, a, b, c, d] = point->name.numbers;
+      if (kind == PointName::kCorner) return a == low || a == high;
+      return kind != PointName::kThreeFacets &&
+             ((a == low && b == high) ||
+              (kind == PointName::kEdgeAndEdge && c == low && d == high));
+    });
+  };
+  return std::ranges::any_of(points, [&](const ArrangedPoint* point) {
+    const auto& [kind, a, b, c, d] = point->name.numbers;
+    if (kind == PointName::kCorner || kind == PointName::kThreeFacets) return false;
+    return all_are_on(a, b) || (kind == PointName::kEdgeAndEdge && all_are_on(c, d));
+  });
 }
 
 }  // namespace
@@ -21,21 +62,24 @@ ExactPoint exact(const ArrangedPoint& point) {
 ArrangedPoint grid_point(const PointName& name, const GridPoint& point) {
   ArrangedPoint result;
   result.name = name;
-  result.grid = point;
   result.position = to_vec3(point);
   return result;
 }
 
-ArrangedPoint rational_point(const PointName& name, const ExactPoint& point) {
+ArrangedPoint arranged_point(const Facets& facets, const PointName& name) {
+  if (name.kind() == PointName::kCorner) return grid_point(name, facets.points[name.numbers[1]]);
   ArrangedPoint result;
   result.name = name;
-  result.is_on_grid = false;
-  result.exact = point;
-  result.position = rounded(point);
+  result.position = rounded(exact_point(facets, name));
   return result;
 }
 
-int turn(const ArrangedPoint& a, const ArrangedPoint& b, const ArrangedPoint& c, int axis) {
+ExactPoint exact_point(const Facets& facets, const ArrangedPoint& point) {
+  return is_corner(point) ? exact_point(on_grid(point)) : exact_point(facets, point.name);
+}
+
+int turn(const Facets& facets, const ArrangedPoint& a, const ArrangedPoint& b,
+         const ArrangedPoint& c, int axis) {
   const glm::dvec2 p = drawn(b, axis) - drawn(a, axis);
   const glm::dvec2 q = drawn(c, axis) - drawn(a, axis);
   const double left = p.x * q.y;
@@ -48,8 +92,11 @@ int turn(const ArrangedPoint& a, const ArrangedPoint& b, const ArrangedPoint& c,
       off * (std::abs(p.x) + std::abs(p.y) + std::abs(q.x) + std::abs(q.y) + 2 * off) +
       4 * 0x1p-53 * (std::abs(left) + std::abs(right));
   if (std::abs(area) > bound) return sign_of(area);
-  if (a.is_on_grid && b.is_on_grid && c.is_on_grid) return turn(a.grid, b.grid, c.grid, axis);
-  return turn(exact(a), exact(b), exact(c), axis);
+  if (is_corner(a) && is_corner(b) && is_corner(c)) {
+    return turn(on_grid(a), on_grid(b), on_grid(c), axis);
+  }
+  if (are_same(a, b) || are_same(b, c) || are_same(c, a) || are_on_one_edge({&a, &b, &c})) return 0;
+  return turn(exact_point(facets, a), exact_point(facets, b), exact_point(facets, c), axis);
 }
 
 void PlanarSubdivision::start(const ArrangedPoint& a, const ArrangedPoint& b,
@@ -128,7 +175,7 @@ uint32_t PlanarSubdivision::insert(const ArrangedPoint& point) {
       const size_t edge = (first + i) % 3;
       const uint32_t a = triangle.points[edge];
       const uint32_t b = triangle.points[(edge + 1) % 3];
-      turns[edge] = turn(points_[a], points_[b], point, axis_);
+      turns[edge] = turn(facets_, points_[a], points_[b], point, axis_);
       if (turns[edge] < 0) next = triangle.beyond[edge];
     }
     if (next != kNoPlace) {

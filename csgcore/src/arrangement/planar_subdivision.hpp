@@ -12,20 +12,19 @@
 
 namespace csgcore {
 
-/// A point of the arrangement.
+/// A point of the arrangement, which its name defines. A corner is on the grid.
 struct ArrangedPoint {
   PointName name;
-  bool is_on_grid = true;
-  GridPoint grid{};    // if it is
-  ExactPoint exact{};  // if it is not
   Vec3 position{0.0};  // exact on the grid, else off by less than kPointError
 };
 
+ArrangedPoint arranged_point(const Facets& facets, const PointName& name);
 ArrangedPoint grid_point(const PointName& name, const GridPoint& point);
-ArrangedPoint rational_point(const PointName& name, const ExactPoint& point);
+ExactPoint exact_point(const Facets& facets, const ArrangedPoint& point);
 
 /// turn() of points of the arrangement.
-int turn(const ArrangedPoint& a, const ArrangedPoint& b, const ArrangedPoint& c, int axis);
+int turn(const Facets& facets, const ArrangedPoint& a, const ArrangedPoint& b,
+         const ArrangedPoint& c, int axis);
 
 class PlanarSubdivision {
  public:
@@ -51,7 +50,8 @@ class PlanarSubdivision {
 
   /// The drawing is along the axis. The first triangle's points lie around all that is inserted,
   /// in either direction.
-  PlanarSubdivision(int axis, Meet meet) : axis_(axis), meet_(std::move(meet)) {}
+  PlanarSubdivision(const Facets& facets, int axis, Meet meet)
+      : facets_(facets), axis_(axis), meet_(std::move(meet)) {}
   /// Starts anew with a triangle.
   void start(const ArrangedPoint& a, const ArrangedPoint& b, const ArrangedPoint& c);
   /// Starts anew with the rectangle that a box has in the drawing, whose corners have the first
@@ -83,7 +83,7 @@ class PlanarSubdivision {
     uint32_t line;
   };
   int turn_of(uint32_t a, uint32_t b, uint32_t c) const {
-    return turn(points_[a], points_[b], points_[c], axis_);
+    return turn(facets_, points_[a], points_[b], points_[c], axis_);
   }
   uint32_t add_point(const ArrangedPoint& point);
   uint32_t add_triangle(const Triangle& triangle);
@@ -103,6 +103,7 @@ class PlanarSubdivision {
   void draw_step(const Segment& segment);
   void clear_way(std::vector<std::array<uint32_t, 2>>& crossed, const Segment& segment);
 
+  const Facets& facets_;
   int axis_;
   Meet meet_;
   std::vector<ArrangedPoint> points_;

@@ -169,8 +169,7 @@ class SheetMaker {
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
     if (commons == 1 && crossing.start == crossing.end) return;
     const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
-    constexpr int kAnyAxis = 0;  // of points that no drawing defines
-    const std::array ends{arranged(start, kAnyAxis).position, arranged(end, kAnyAxis).position};
+    const std::array ends{arranged(start).position, arranged(end).position};
     if (covers_.hide(ends, operand_of_t, operand_of_s, last)) return;
     found.traces.push_back({kNoPlace, t.number, s.number, start, end, edge_of_s});
     found.traces.push_back({kNoPlace, s.number, t.number, start, end, edge_of_t});
@@ -197,22 +196,7 @@ class SheetMaker {
     bool is_edge() const { return edge[0] != kNoPlace; }
   };
 
-  ArrangedPoint arranged(const PointName& name, int axis) const {
-    const auto& [kind, a, b, c, d] = name.numbers;
-    const auto& points = facets_.points;
-    switch (name.kind()) {
-      case PointName::kCorner:
-        return grid_point(name, points[a]);
-      case PointName::kEdgeAndFacet:
-        return rational_point(name, meet(points[a], points[b], facets_.plane(c)));
-      case PointName::kEdgeAndEdge:
-        return rational_point(name,
-                              meet(points[a], points[b], plane_along(points[c], points[d], axis)));
-      case PointName::kThreeFacets:
-        break;
-    }
-    return rational_point(name, meet(facets_.plane(a), facets_.plane(b), facets_.plane(c)));
-  }
+  ArrangedPoint arranged(const PointName& name) const { return arranged_point(facets_, name); }
 
   /// The names of the point in which lines cross. What is an edge in one sheet may be the inside of
   /// a facet in another.
@@ -250,16 +234,16 @@ class SheetMaker {
 
   /// Returns one of the lines through a point for each direction, plane and edge that they have,
   /// by direction.
-  static std::vector<std::vector<uint32_t>> by_direction(const PlanarSubdivision& drawing,
-                                                         const std::vector<Line>& lines,
-                                                         std::span<const Passing> here) {
+  std::vector<std::vector<uint32_t>> by_direction(const PlanarSubdivision& drawing,
+                                                  const std::vector<Line>& lines,
+                                                  std::span<const Passing> here) const {
     const auto& points = drawing.points();
     std::vector<std::pair<uint32_t, size_t>> known;  // next points, and in which direction they lie
     std::vector<std::vector<uint32_t>> result;
     std::vector<uint32_t> first;  // by direction: a next point
     for (const Passing& at : here) {
       const auto is_along = [&](uint32_t next) {
-        return turn(points[at.point], points[next], points[at.next], drawing.axis()) == 0;
+        return turn(facets_, points[at.point], points[next], points[at.next], drawing.axis()) == 0;
       };
       auto place = std::ranges::find(known, at.next, &std::pair<uint32_t, size_t>::first);
       if (place == known.end()) {
@@ -340,10 +324,11 @@ class SheetMaker {
     const uint32_t plane = plane_of(members.front());
     const int axis = facets_.plane(plane).axis();
     std::vector<Line> lines;
-    PlanarSubdivision drawing(axis, [&](uint32_t p, uint32_t q, std::vector<PointName>& aliases) {
-      aliases = names_of(lines[p], lines[q], plane);
-      return arranged(aliases.front(), axis);
-    });
+    PlanarSubdivision drawing(facets_, axis,
+                              [&](uint32_t p, uint32_t q, std::vector<PointName>& aliases) {
+                                aliases = names_of(lines[p], lines[q], plane);
+                                return arranged(aliases.front());
+                              });
     start(drawing, members);
     // The edges of the facets are their first lines.
     for (const uint32_t member : members) {
@@ -353,15 +338,15 @@ class SheetMaker {
     }
     std::vector<std::pair<uint32_t, uint32_t>> ends;  // by trace
     for (size_t i = begin; i < end; ++i) {
-      const uint32_t from = drawing.insert(arranged(traces_[i].start, axis));
+      const uint32_t from = drawing.insert(arranged(traces_[i].start));
       const bool is_point = traces_[i].start == traces_[i].end;
-      ends.emplace_back(from, is_point ? from : drawing.insert(arranged(traces_[i].end, axis)));
+      ends.emplace_back(from, is_point ? from : drawing.insert(arranged(traces_[i].end)));
     }
     if (members.size() > 1) {
       for (size_t i = 0; i < lines.size(); ++i) {
         const auto [a, b] = lines[i].edge;
-        const uint32_t from = drawing.insert(arranged(corner_name(a), axis));
-        const uint32_t to = drawing.insert(arranged(corner_name(b), axis));
+        const uint32_t from = drawing.insert(arranged(corner_name(a)));
+        const uint32_t to = drawing.insert(arranged(corner_name(b)));
         drawing.draw(from, to, static_cast<uint32_t>(i));
       }
     }
