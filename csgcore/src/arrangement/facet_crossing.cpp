@@ -11,9 +11,18 @@ namespace {
 
 using Sides = std::array<int, 3>;
 
-Sides sides_of(const PlacedFacet& facet, const GridPlane& plane) {
-  return {side(plane, facet.corners[0]), side(plane, facet.corners[1]),
-          side(plane, facet.corners[2])};
+bool has_corner(const PlacedFacet& facet, uint32_t name) {
+  return std::ranges::find(facet.names, name) != facet.names.end();
+}
+
+/// Returns the sides of the other facet's plane on which the facet's corners lie.
+Sides sides_of(const PlacedFacet& facet, const PlacedFacet& other) {
+  Sides result{};
+  for (size_t i = 0; i < 3; ++i) {
+    const bool is_known = has_corner(other, facet.names[i]);
+    result[i] = is_known ? 0 : side(other.plane, facet.corners[i]);
+  }
+  return result;
 }
 
 bool all_are(const Sides& sides, int value) {
@@ -150,7 +159,7 @@ FacetCrossing coplanar_crossing(const PlacedFacet& t, const PlacedFacet& s) {
   }
   for (const auto& [facet, other] : {std::pair(&t, &s), std::pair(&s, &t)}) {
     for (size_t i = 0; i < 3; ++i) {
-      if (covers(*facet, other->corners[i])) {
+      if (!has_corner(*facet, other->names[i]) && covers(*facet, other->corners[i])) {
         result.touches.push_back({facet->number, other->names[i]});
       }
     }
@@ -165,19 +174,27 @@ PlacedFacet placed(const Facets& facets, uint32_t facet) {
 }
 
 FacetCrossing crossing_of(const PlacedFacet& t, const PlacedFacet& s) {
-  const Sides t_sides = sides_of(t, s.plane);
+  const Sides t_sides = sides_of(t, s);
   if (all_are(t_sides, 1) || all_are(t_sides, -1)) return {};
   if (all_are(t_sides, 0)) return coplanar_crossing(t, s);
-  const Sides s_sides = sides_of(s, t.plane);
+  const Sides s_sides = sides_of(s, t);
   if (all_are(s_sides, 1) || all_are(s_sides, -1)) return {};
+  FacetCrossing result;
   const Stretch on_t = stretch_of(t_sides);
+  // A corner that both have is all that t has of the plane.
+  const uint32_t corner_of_t = t.names[on_t.start.corner];
+  if (!on_t.start.is_on_edge && !on_t.end.is_on_edge && on_t.start.corner == on_t.end.corner &&
+      has_corner(s, corner_of_t)) {
+    result.kind = FacetCrossing::Kind::kLine;
+    result.start = result.end = corner_name(corner_of_t);
+    return result;
+  }
   Stretch on_s = stretch_of(s_sides);
   // It is along n_s × n_t, the other way.
   std::swap(on_s.start, on_s.end);
   if (order(t, on_t.start, s, on_s.end) < 0 || order(t, on_t.end, s, on_s.start) > 0) return {};
   const bool starts_with_s = order(t, on_t.start, s, on_s.start) > 0;
   const bool ends_with_s = order(t, on_t.end, s, on_s.end) < 0;
-  FacetCrossing result;
   result.kind = FacetCrossing::Kind::kLine;
   result.start = starts_with_s ? end_name(s, on_s.start, t) : end_name(t, on_t.start, s);
   result.end = ends_with_s ? end_name(s, on_s.end, t) : end_name(t, on_t.end, s);

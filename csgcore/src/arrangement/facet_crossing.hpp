@@ -33,7 +33,7 @@ struct FacetCrossing {
   Edge edge_of_first{kNoPlace, kNoPlace};
   Edge edge_of_second{kNoPlace, kNoPlace};
   /// Facets of one plane that have no area in common: the corners of one that lie on an edge of
-  /// the other.
+  /// the other, and are none of its corners.
   std::vector<Facets::Touch> touches{};
 };
 

@@ -40,6 +40,7 @@ struct CommonEdge {
 struct Found {
   std::vector<Trace> traces;
   std::vector<std::pair<uint32_t, uint32_t>> coplanar;
+  std::vector<std::pair<uint32_t, uint32_t>> in_corner;  // they meet in a corner of both alone
   std::vector<CommonEdge> common;
 };
 
@@ -93,11 +94,19 @@ class SheetMaker {
       traces_.insert(traces_.end(), part.traces.begin(), part.traces.end());
       for (const auto& [a, b] : part.coplanar) planes_.join(a, b);
     }
+    std::vector<bool> is_met(facets_.facets.size(), false);
+    const auto meet = [&](uint32_t facet) {
+      if (is_met[facet]) return;
+      is_met[facet] = true;
+      // A trace that only says that the facet is part of a sheet.
+      traces_.push_back(touch(facet, facets_.facets[facet].corners[0]));
+    };
     for (const Found& part : found) {
-      for (const auto& [a, b] : part.coplanar) {
-        // A trace that only says that the facet is part of a sheet.
-        traces_.push_back(touch(a, facets_.facets[a].corners[0]));
-        traces_.push_back(touch(b, facets_.facets[b].corners[0]));
+      for (const auto* pairs : {&part.coplanar, &part.in_corner}) {
+        for (const auto& [a, b] : *pairs) {
+          meet(a);
+          meet(b);
+        }
       }
     }
     add_common_edges(found);
@@ -147,8 +156,7 @@ class SheetMaker {
     std::array<uint32_t, 3> common{};
     size_t commons = 0;
     for (const uint32_t name : t.names) {
-      const bool is_common = is_one_operand && std::ranges::find(s.names, name) != s.names.end();
-      if (is_common) common[commons++] = name;
+      if (std::ranges::find(s.names, name) != s.names.end()) common[commons++] = name;
     }
     const FacetCrossing crossing = crossing_of(t, s);
     if (crossing.kind == FacetCrossing::Kind::kOverlap) {
@@ -156,21 +164,24 @@ class SheetMaker {
       return;
     }
     // Neighbours of one surface meet in what they have in common.
-    if (commons >= 2) {
+    if (is_one_operand && commons >= 2) {
       const auto [low, high] = std::minmax(common[0], common[1]);
       found.common.push_back({low, high, t.number, s.number});
       return;
     }
     for (const Facets::Touch& at : crossing.touches) {
-      const auto& corners = facets_.facets[at.facet].corners;
-      if (std::ranges::find(corners, at.point) != corners.end()) continue;
       found.traces.push_back(touch(at.facet, at.point));
     }
     if (crossing.kind == FacetCrossing::Kind::kNone) return;
-    if (commons == 1 && crossing.start == crossing.end) return;
+    const bool is_in_corner = commons == 1 && crossing.start == crossing.end;
+    if (is_one_operand && is_in_corner) return;
     const auto& [kind, start, end, edge_of_t, edge_of_s, touches] = crossing;
     const std::array ends{arranged(start).position, arranged(end).position};
     if (covers_.hide(ends, operand_of_t, operand_of_s, last)) return;
+    if (is_in_corner) {
+      found.in_corner.emplace_back(t.number, s.number);
+      return;
+    }
     found.traces.push_back({kNoPlace, t.number, s.number, start, end, edge_of_s});
     found.traces.push_back({kNoPlace, s.number, t.number, start, end, edge_of_t});
   }
