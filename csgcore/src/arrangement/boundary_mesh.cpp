@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <utility>
 
 #include "arrangement/cell_tree.hpp"
@@ -24,32 +25,15 @@ namespace {
 class BoundaryMaker {
  public:
   BoundaryMaker(const Facets& facets, const std::vector<bool>& may_cross_itself,
-                const CellTree& cells, const Pieces& pieces)
-      : facets_(facets), may_cross_itself_(may_cross_itself), cells_(cells), pieces_(pieces) {}
-
-  BoundaryMesh run() {
-    judge_patches();
-    return mesh();
-  }
-
- private:
-  double area_of(const Piece& piece) const {
-    std::array<Vec3, 3> corners;
-    for (size_t i = 0; i < 3; ++i) {
-      const uint32_t point = piece.points[i];
-      corners[i] = point < pieces_.corner_count() ? to_vec3(facets_.points[point])
-                                                  : pieces_.point(point).position;
-    }
-    const Vec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    return glm::dot(area, area);
-  }
+                const Pieces& pieces)
+      : facets_(facets), may_cross_itself_(may_cross_itself), pieces_(pieces) {}
 
   /// Judges each patch where its operand is alone, or at its largest piece, the first of several.
-  void judge_patches() {
+  void judge_patches(const CellTree& cells) {
     const std::vector<Piece>& pieces = pieces_.all();
     kept_.resize(pieces.size());
     std::vector<bool> is_judged(pieces.size(), false);
-    for (const CellTree::Alone& cell : cells_.alone()) {
+    for (const CellTree::Alone& cell : cells.alone()) {
       for (const uint32_t facet : cell.facets) {
         const uint32_t piece = pieces_.piece_of(facet);
         if (piece == kNoPlace) continue;
@@ -74,39 +58,8 @@ class BoundaryMaker {
     tbb::parallel_for(size_t{0}, open.size(), [&](size_t i) {
       const StopScope scope(stop);
       stop_point();
-      kept_[open[i]] = judged(pieces[largest[open[i]]]);
+      kept_[open[i]] = judged(cells, pieces[largest[open[i]]]);
     });
-  }
-
-  KeptFace judged(const Piece& piece) const {
-    const std::array<ArrangedPoint, 3> points{pieces_.point(piece.points[0]),
-                                              pieces_.point(piece.points[1]),
-                                              pieces_.point(piece.points[2])};
-    return cells_.kept({&points[0], &points[1], &points[2]}, pieces_.axis(piece),
-                       pieces_.facets(piece));
-  }
-
-  /// Returns 1 if the facet faces along the axis, -1 if against it.
-  int facing(uint32_t facet, int axis) const {
-    const auto [a, b, c] = facets_.corners(facet);
-    return turn(a, b, c, axis);
-  }
-
-  std::vector<KeptPiece> kept_pieces() const {
-    std::vector<KeptPiece> result;
-    const std::vector<Piece>& pieces = pieces_.all();
-    for (uint32_t i = 0; i < pieces.size(); ++i) {
-      const KeptFace& kept = kept_[pieces_.patches()[i]];
-      if (kept.sign == 0) continue;
-      const Piece& piece = pieces[i];
-      // A facet turns as itself, a triangle of a sheet to the left in the drawing.
-      const int turns =
-          piece.sheet == kNoPlace ? 1 : facing(pieces_.facets(piece).front(), pieces_.axis(piece));
-      auto [a, b, c] = piece.points;
-      if (turns * kept.sign < 0) std::swap(b, c);
-      result.push_back({i, {{a, b, c}, kept.operand}});
-    }
-    return result;
   }
 
   BoundaryMesh mesh() const {
@@ -140,9 +93,51 @@ class BoundaryMaker {
     return result;
   }
 
+ private:
+  double area_of(const Piece& piece) const {
+    std::array<Vec3, 3> corners;
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t point = piece.points[i];
+      corners[i] = point < pieces_.corner_count() ? to_vec3(facets_.points[point])
+                                                  : pieces_.point(point).position;
+    }
+    const Vec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    return glm::dot(area, area);
+  }
+
+  KeptFace judged(const CellTree& cells, const Piece& piece) const {
+    const std::array<ArrangedPoint, 3> points{pieces_.point(piece.points[0]),
+                                              pieces_.point(piece.points[1]),
+                                              pieces_.point(piece.points[2])};
+    return cells.kept({&points[0], &points[1], &points[2]}, pieces_.axis(piece),
+                      pieces_.facets(piece));
+  }
+
+  /// Returns 1 if the facet faces along the axis, -1 if against it.
+  int facing(uint32_t facet, int axis) const {
+    const auto [a, b, c] = facets_.corners(facet);
+    return turn(a, b, c, axis);
+  }
+
+  std::vector<KeptPiece> kept_pieces() const {
+    std::vector<KeptPiece> result;
+    const std::vector<Piece>& pieces = pieces_.all();
+    for (uint32_t i = 0; i < pieces.size(); ++i) {
+      const KeptFace& kept = kept_[pieces_.patches()[i]];
+      if (kept.sign == 0) continue;
+      const Piece& piece = pieces[i];
+      // A facet turns as itself, a triangle of a sheet to the left in the drawing.
+      const int turns =
+          piece.sheet == kNoPlace ? 1 : facing(pieces_.facets(piece).front(), pieces_.axis(piece));
+      auto [a, b, c] = piece.points;
+      if (turns * kept.sign < 0) std::swap(b, c);
+      result.push_back({i, {{a, b, c}, kept.operand}});
+    }
+    return result;
+  }
+
   const Facets& facets_;
   const std::vector<bool>& may_cross_itself_;
-  const CellTree& cells_;
   const Pieces& pieces_;
   std::vector<KeptFace> kept_;  // by a patch's first piece
 };
@@ -174,13 +169,19 @@ BoundaryMesh mesh_of_part(std::span<const TriangleSet> all, const SeparatePart& 
   const std::vector<bool> may_cross_itself = find_simple_surfaces(operands, facets);
   const bool is_simple = part.tokens.size() == 1 && !may_cross_itself[0] && facets.touches.empty();
   if (is_simple) return mesh_of_simple(facets);
-  const FacetTrees trees(facets, operands.size());
-  const Covers covers(facets, trees, part.tokens, may_cross_itself);
-  const NeededFacets needed = needed_facets(facets, trees, covers, may_cross_itself);
-  const CellTree cells(facets, trees, part.tokens, may_cross_itself, needed.firsts);
-  const Sheets sheets = sheets_of(facets, cells.pairs(), covers);
-  const Pieces pieces(facets, needed, cells, sheets);
-  return BoundaryMaker(facets, may_cross_itself, cells, pieces).run();
+  auto trees = std::make_unique<const FacetTrees>(facets, operands.size());
+  const Covers covers(facets, *trees, part.tokens, may_cross_itself);
+  const NeededFacets needed = needed_facets(facets, *trees, covers, may_cross_itself);
+  auto cells = std::make_unique<const CellTree>(facets, *trees, part.tokens, may_cross_itself,
+                                                needed.firsts);
+  const Sheets sheets = sheets_of(facets, cells->pairs(), covers);
+  const Pieces pieces(facets, needed, *cells, sheets);
+  BoundaryMaker maker(facets, may_cross_itself, pieces);
+  maker.judge_patches(*cells);
+  // A third of the memory, which the mesh does not need.
+  cells.reset();
+  trees.reset();
+  return maker.mesh();
 }
 
 /// Returns all of them; the operands of each are places in those of its part.

@@ -93,7 +93,7 @@ class BoxTree::Builder {
   /// equal it is balanced.
   void build(uint32_t begin, uint32_t end, std::vector<Node>& nodes) {
     const auto number = static_cast<uint32_t>(nodes.size());
-    constexpr uint32_t kFew = 4;
+    constexpr uint32_t kFew = 8;
     if (end - begin <= kFew) {
       FacetBox box = boxes_[items_[begin].number];
       for (uint32_t i = begin; i < end; ++i) box.merge(boxes_[items_[i].number]);

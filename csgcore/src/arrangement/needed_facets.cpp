@@ -74,8 +74,9 @@ class Selection {
     if (may_cross_itself_[operand]) {
       for (uint32_t i = trees_.first(operand); i < trees_.end(operand); ++i) set_near(i);
     }
+    std::vector<bool> is_left_out(trees_.tree(operand).nodes().size(), false);
     covers_.visit(box, [&](uint32_t other) {
-      if (other != operand) compare(operand, other);
+      if (other != operand) compare(operand, other, is_left_out);
       return false;
     });
   }
@@ -88,18 +89,20 @@ class Selection {
   struct Comparison {
     uint32_t operand;
     uint32_t other;
-    std::array<bool, 2> decides;  // the other one, outside of it and inside
-    std::vector<uint32_t> near;   // nodes of the other one, those for each node above the last one
+    std::vector<bool>& is_left_out;  // by node of the operand: all of its facets are
+    std::array<bool, 2> decides;     // the other one, outside of it and inside
+    std::vector<uint32_t> near;  // nodes of the other one, those for each node above the last one
     // The last facet that was found to be apart from the other surface, and whether inside of it.
     std::array<uint32_t, 3> last{kNoPlace, kNoPlace, kNoPlace};
     bool is_inside = false;
   };
 
   /// Leaves out facets of the operand where the other one decides, in groups as large as possible.
-  void compare(uint32_t operand, uint32_t other) {
+  void compare(uint32_t operand, uint32_t other, std::vector<bool>& is_left_out) {
     Comparison at{
         operand,
         other,
+        is_left_out,
         {decisions_.decides(other, false, operand), decisions_.decides(other, true, operand)},
         {0}};
     compare(at, 0, 0);
@@ -108,13 +111,17 @@ class Selection {
   /// Does so in a node. What comes near the node above it is in at.near from `begin` on. Recurses
   /// as deep as the tree is.
   void compare(Comparison& at, uint32_t number, size_t begin) {
+    if (at.is_left_out[number]) return;
     const BoxTree& tree = trees_.tree(at.operand);
     const BoxTree::Node& node = tree.nodes()[number];
     const uint32_t first = trees_.first(at.operand);
     const size_t end = at.near.size();
     for (size_t i = begin; i < end; ++i) add_near(at, at.near[i], node.box);
     if (at.near.size() == end) {
-      if (is_decided_apart(at, first + node.begin)) leave_out(first + node.begin, first + node.end);
+      if (is_decided_apart(at, first + node.begin)) {
+        leave_out(first + node.begin, first + node.end);
+        at.is_left_out[number] = true;
+      }
       return;
     }
     if (tree.is_leaf(number)) {

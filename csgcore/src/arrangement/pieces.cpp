@@ -34,46 +34,49 @@ void Pieces::number_points() {
     PointName name;
     uint32_t sheet;
     uint32_t point;
+    bool is_alias;
     auto operator<=>(const Named&) const = default;
   };
   std::vector<Named> named;
+  numbers_.resize(sheets_.sheets.size());
   for (uint32_t i = 0; i < sheets_.sheets.size(); ++i) {
     const Sheet& sheet = sheets_.sheets[i];
+    numbers_[i].resize(sheet.points.size());
     for (uint32_t j = 0; j < sheet.points.size(); ++j) {
       const PointName& name = sheet.points[j].name;
-      if (name.kind() != PointName::kCorner) named.push_back({name, i, j});
+      if (name.kind() == PointName::kCorner) {
+        numbers_[i][j] = name.numbers[1];
+      } else {
+        named.push_back({name, i, j, false});
+      }
     }
     for (const auto& alias : sheet.aliases) {
-      if (alias.name.kind() != PointName::kCorner) named.push_back({alias.name, i, alias.point});
+      if (alias.name.kind() != PointName::kCorner) {
+        named.push_back({alias.name, i, alias.point, true});
+      }
     }
   }
   tbb::parallel_sort(named.begin(), named.end());
   // The sheets may have rounded a point differently: the first of them counts.
-  std::vector<PointName> names;
   std::vector<const ArrangedPoint*> points;
-  for (const Named& entry : named) {
-    if (!names.empty() && names.back() == entry.name) continue;
-    names.push_back(entry.name);
-    points.push_back(&sheets_.sheets[entry.sheet].points[entry.point]);
-  }
-  const auto number_of = [&](const PointName& name) {
-    if (name.kind() == PointName::kCorner) return name.numbers[1];
-    return static_cast<uint32_t>(
-        corner_count_ + static_cast<size_t>(std::ranges::lower_bound(names, name) - names.begin()));
-  };
-  DisjointSets same(corner_count_ + names.size());
-  numbers_.resize(sheets_.sheets.size());
-  const auto is_real = [](const PointName& name) {
-    return name.kind() != PointName::kCorner || name.numbers[1] != kNoPlace;
-  };
-  tbb::parallel_for(size_t{0}, numbers_.size(), [&](size_t i) {
-    for (const ArrangedPoint& point : sheets_.sheets[i].points) {
-      numbers_[i].push_back(is_real(point.name) ? number_of(point.name) : kNoPlace);
+  std::vector<uint32_t> number_of(named.size());
+  for (size_t i = 0; i < named.size(); ++i) {
+    const auto& [name, sheet, point, is_alias] = named[i];
+    if (i == 0 || named[i - 1].name != name) {
+      points.push_back(&sheets_.sheets[sheet].points[point]);
     }
-  });
+    number_of[i] = static_cast<uint32_t>(corner_count_ + points.size() - 1);
+    if (!is_alias) numbers_[sheet][point] = number_of[i];
+  }
+  DisjointSets same(corner_count_ + points.size());
+  for (size_t i = 0; i < named.size(); ++i) {
+    const auto& [name, sheet, point, is_alias] = named[i];
+    if (is_alias) same.join(numbers_[sheet][point], number_of[i]);
+  }
   for (size_t i = 0; i < numbers_.size(); ++i) {
     for (const auto& alias : sheets_.sheets[i].aliases) {
-      same.join(numbers_[i][alias.point], number_of(alias.name));
+      if (alias.name.kind() != PointName::kCorner) continue;
+      same.join(numbers_[i][alias.point], alias.name.numbers[1]);
     }
   }
   for (std::vector<uint32_t>& numbers : numbers_) {
