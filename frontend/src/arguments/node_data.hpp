@@ -58,6 +58,9 @@ struct RotateExtrudeArguments {
 struct LinearExtrudeNode {
   LinearExtrudeArguments arguments;
   bool is_faceted = false;  // a twisted one has OpenSCAD's slices
+  /// What is needed is the surface: figures are united in the plane. As solids of their own they
+  /// would have ends that lie in one plane only until a rotation rounds them.
+  bool unites_figures = false;
 };
 
 struct RotateExtrudeNode {

@@ -70,7 +70,9 @@ LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
   // Few slices are kept as few fragments are.
   csgcore::FacetSettings asked = arguments.facets;
   if (arguments.slices) asked.fn = *arguments.slices;
-  return {arguments, keeps_facets(options, asked)};
+  const bool is_surface =
+      options.facets == Facets::kAll && options.picture == PictureKind::kRendered;
+  return {arguments, keeps_facets(options, asked), is_surface};
 }
 
 /// Returns whether a twist leaves all figures as they are: they are discs about the axis.
@@ -96,6 +98,18 @@ LoweredSubtree sliced(const Extrusion& extrusion) {
                      extrusion.is_operand && !data.is_faceted);
 }
 
+/// Returns the figures to extrude, as one where the node unites them and they can be united.
+FigureTree figures_to_extrude(const Extrusion& extrusion) {
+  const FigureTree& figures = extrusion.figures;
+  if (!std::get<LinearExtrudeNode>(extrusion.data).unites_figures || figures.figures.size() < 2) {
+    return figures;
+  }
+  std::optional<SimplePolygons> polygons = united(extrusion.outcome());
+  if (!polygons) return figures;
+  const Figure whole = outline_of(std::move(*polygons), csgcore::FillRule::kNonZero);
+  return union_of({&whole, 1}, extrusion.frame, figures.figures.front().id);
+}
+
 LoweredSubtree extruded(const Extrusion& extrusion) {
   const LinearExtrudeArguments& arguments =
       extrusion.evaluation.data<LinearExtrudeNode>(extrusion.node).arguments;
@@ -105,7 +119,7 @@ LoweredSubtree extruded(const Extrusion& extrusion) {
     return sliced(extrusion);
   }
   return extrude(
-      extrusion.figures,
+      figures_to_extrude(extrusion),
       {layers.z_min, layers.z_max, layers.top_scale.x, arguments.lean / arguments.height}, false,
       extrusion.to_world(), extrusion.frames, extrusion.solids());
 }

@@ -51,6 +51,7 @@ class Exported {
     EXPECT_EQ(file.problem, "");
     return enclosed_volume(file.faces);
   }
+  double area() { return model_.figures().value().area; }
   std::string three_mf() {
     return ZipArchive(as(ModelFormat::k3mf)).unpack("3D/3dmodel.model").value_or("");
   }
@@ -157,6 +158,20 @@ TEST(ModelExport, BackgroundIsLeftOutAndHighlightsAreNot) {
 TEST(ModelExport, AMirroredSolidIsNotInsideOut) {
   Exported exported("multmatrix([[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {" + kCube + "}");
   EXPECT_NEAR(exported.volume(), 6, 1e-9);
+}
+
+TEST(ModelExport, AHoleInATurnedExtrusionIsOpen) {
+  Exported exported(
+      "multmatrix([[1,0,0,0],[0,0.8,-0.6,0],[0,0.6,0.8,0],[0,0,0,1]]) multmatrix([[0.96,-0.28,0,0],"
+      "[0.28,0.96,0,0],[0,0,1,0],[0,0,0,1]]) linear_extrude(height = 3, $fn = 0, $fa = 12, $fs = 2)"
+      " difference() { square(size = [60, 40], center = false);"
+      " multmatrix([[1,0,0,7],[0,1,0,9],[0,0,1,0],[0,0,0,1]]) square(size = [5, 4], center = "
+      "false);"
+      " multmatrix([[1,0,0,30],[0,1,0,9],[0,0,1,0],[0,0,0,1]]) square(size = [7, 9], center = "
+      "false);"
+      "}");
+  EXPECT_NEAR(exported.volume(), 3 * (2400 - 20 - 63), 1e-6);
+  EXPECT_NEAR(exported.area(), 2 * (2400 - 20 - 63) + 3 * (200 + 18 + 32), 1e-6);
 }
 
 TEST(ModelExport, EqualPolyhedraStandWhereTheyArePut) {
