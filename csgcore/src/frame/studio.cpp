@@ -50,10 +50,15 @@ constexpr double kKeyRadius = 0.06;
 
 constexpr uint32_t kNoPoint = std::numeric_limits<uint32_t>::max();
 
-/// The cosine of the largest angle between normals of the same smooth face in pixels side by side.
-const double kSmoothCosine = std::cos(20 * std::numbers::pi / 180);
+constexpr double kDegree = std::numbers::pi / 180;
+/// The largest angle between normals of the same smooth face in pixels side by side.
+constexpr double kSmoothAngle = 20 * kDegree;
 /// The same between faces of different primitives, which may touch in a line that is to be seen.
-const double kMeetingCosine = std::cos(6 * std::numbers::pi / 180);
+constexpr double kMeetingAngle = 6 * kDegree;
+const double kSmoothCosine = std::cos(kSmoothAngle), kMeetingCosine = std::cos(kMeetingAngle);
+/// A line in a crease gets darker up to so many times that angle: one that began at once would be
+/// dashed where a face bends by about as much.
+constexpr double kFullLine = 1.5;
 /// The sine of the largest angle of the line between two such pixels' points to both faces.
 constexpr double kLargestRise = 0.3;
 /// What a line leaves of the colour below it.
@@ -126,9 +131,7 @@ class Studio {
         const size_t pixel = index(x, y);
         if (hits_.primitive[pixel] == Hits::kMiss) continue;
         double factor = has_light ? light_at(pixel) : 1;
-        if (settings_.edges > 0 && is_edge(x, y)) {
-          factor *= 1 - settings_.edges * (1 - kLineShade);
-        }
+        if (settings_.edges > 0) factor *= 1 - settings_.edges * (1 - kLineShade) * line_at(x, y);
         for (uint8_t& channel : image_.rgb[pixel]) {
           channel = static_cast<uint8_t>(channel * factor + 0.5);
         }
@@ -379,12 +382,14 @@ class Studio {
     return !is_step(a, b);
   }
 
-  /// Whether one of two faces ends before the other.
+  /// Whether one of two faces ends before the other. Where they meet, each goes on before the other
+  /// one, or each behind it.
   bool is_step(size_t a, size_t b) const {
     const Vec3 line = hits_.position[b] - hits_.position[a];
-    const double rise = std::min(std::abs(glm::dot(hits_.normal[a], line)),
-                                 std::abs(glm::dot(hits_.normal[b], line)));
-    return rise * rise > kLargestRise * kLargestRise * glm::dot(line, line);
+    const double from_a = glm::dot(hits_.normal[a], line);
+    const double from_b = glm::dot(hits_.normal[b], line);
+    const double rise = std::min(std::abs(from_a), std::abs(from_b));
+    return from_a * from_b > 0 && rise * rise > kLargestRise * kLargestRise * glm::dot(line, line);
   }
 
   /// Returns by how much the colour of a pixel gets darker.
@@ -397,17 +402,33 @@ class Studio {
     return studio_shade(light_, normal, open, key) / studio_shade(light_, normal, 1, 1);
   }
 
-  /// Whether the face that the pixel shows ends beside it, before another one or in a crease.
-  bool is_edge(uint32_t x, uint32_t y) const {
-    const size_t pixel = index(x, y);
-    const auto ends_at = [&](size_t other) {
-      if (are_of_one_face(pixel, other)) return false;
-      return hits_.primitive[other] == Hits::kMiss || !is_step(pixel, other) ||
-             hits_.s[pixel] < hits_.s[other];
+  /// Returns how much of a line there is between a pixel and one beside it, from 0 to 1: where one
+  /// of two faces ends, which is the nearer one, or both meet in a crease.
+  double line_between(size_t pixel, size_t other) const {
+    if (hits_.primitive[other] == Hits::kMiss) return 1;
+    if (is_step(pixel, other)) return hits_.s[pixel] < hits_.s[other] ? 1 : 0;
+    const bool is_same = hits_.primitive[pixel] == hits_.primitive[other];
+    const double cosine = glm::dot(hits_.normal[pixel], hits_.normal[other]);
+    if (cosine >= (is_same ? kSmoothCosine : kMeetingCosine)) return 0;
+    const double smooth = is_same ? kSmoothAngle : kMeetingAngle;
+    return std::min((std::acos(std::max(cosine, -1.0)) / smooth - 1) / (kFullLine - 1), 1.0);
+  }
+
+  /// Returns how much of a line the pixel shows: the most of those that its face has within half a
+  /// block.
+  double line_at(uint32_t x, uint32_t y) const {
+    const uint32_t reach = (settings_.block_px + 1) / 2;
+    const auto towards = [&](size_t step, uint32_t steps_left) {
+      double most = 0;
+      size_t pixel = index(x, y);
+      for (uint32_t i = 0; i < std::min(reach, steps_left) && most == 0; ++i, pixel += step) {
+        most = line_between(pixel, pixel + step);
+      }
+      return most;
     };
-    return (x > 0 && ends_at(pixel - 1)) || (x + 1 < view_.width_px && ends_at(pixel + 1)) ||
-           (y > 0 && ends_at(pixel - view_.width_px)) ||
-           (y + 1 < view_.height_px && ends_at(pixel + view_.width_px));
+    const size_t row = view_.width_px;
+    return std::max({towards(~size_t{0}, x), towards(1, view_.width_px - 1 - x),
+                     towards(~row + 1, y), towards(row, view_.height_px - 1 - y)});
   }
 
   const Solid& solid_;

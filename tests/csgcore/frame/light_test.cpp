@@ -328,6 +328,64 @@ TEST(Studio, DrawsLinesWhereFacesMeet) {
   EXPECT_GT(lines, 100);
 }
 
+/// How much darker lines make the picture: by pixel, from 0 to 1.
+std::vector<double> lines_of(const Solid& solid, const View& view, uint32_t block_px = 1) {
+  StudioSettings settings{.shadows = 0, .occlusion = 0};
+  settings.block_px = block_px;
+  const Image with = studio_picture(solid, view, settings);
+  const Image without = studio_picture(solid, view, {0, 0, 0});
+  std::vector<double> result;
+  for (size_t pixel = 0; pixel < with.rgb.size(); ++pixel) {
+    result.push_back(1 - double(with.rgb[pixel][1]) / without.rgb[pixel][1]);
+  }
+  return result;
+}
+
+TEST(Studio, LinesInCreasesAreEven) {
+  const Solid solid = solid_of(test_support::scene_of(Op::kUnion, {make_frustum(-5, 5, 10, 10)}));
+  View view = checks::view_of(solid.bounds(), glm::normalize(Vec3(0.1, 1, -1)),
+                              4.5 * solid.bounds().diagonal());
+  view.width_px = view.height_px = 128;
+  const std::vector<double> lines = lines_of(solid, view);
+  for (uint32_t x = 54; x < 74; ++x) {
+    int dark = 0;
+    for (uint32_t y = 0; y < view.height_px; ++y)
+      dark += lines[size_t{y} * view.width_px + x] > 0.6;
+    // The far rim and the lower one end before the background, the near one meets the side.
+    EXPECT_EQ(dark, 1 + 1 + 2) << x;
+  }
+}
+
+TEST(Studio, LinesAreAsWideInFinerPictures) {
+  const Solid solid = plate(Op::kDifference, {{{-4, -4, -2}, {4, 4, 1}}});
+  const auto darkness = [&](uint32_t block_px) {
+    View view = from_above(solid.bounds());
+    view.width_px = view.height_px = 64 * block_px;
+    const std::vector<double> lines = lines_of(solid, view, block_px);
+    return std::accumulate(lines.begin(), lines.end(), 0.0) / (block_px * block_px);
+  };
+  EXPECT_NEAR(darkness(4), darkness(2), 0.05 * darkness(2));
+  EXPECT_NEAR(darkness(8), darkness(2), 0.05 * darkness(2));
+}
+
+TEST(Studio, LinesInCreasesGrowWithTheAngle) {
+  // Where the sides of a prism meet, in the middle of a picture of them.
+  const auto darkest = [](int sides) {
+    const Solid solid = solid_of(test_support::scene_of(
+        Op::kUnion, {make_polyhedron(Polyhedron::frustum(-5, 5, 10, 10, sides))}));
+    View view = checks::view_of(solid.bounds(), glm::normalize(Vec3(1, 0.1, 0)),
+                                4.5 * solid.bounds().diagonal());
+    view.width_px = view.height_px = 64;
+    const std::vector<double> lines = lines_of(solid, view);
+    const auto middle = lines.begin() + 32 * 64;
+    return *std::max_element(middle + 24, middle + 40);
+  };
+  EXPECT_EQ(darkest(24), 0);
+  EXPECT_GT(darkest(15), 0.1);
+  EXPECT_LT(darkest(15), 0.6);
+  EXPECT_GT(darkest(8), 0.65);
+}
+
 /// Occlusion of each pixel by this many directions of its own.
 Image occluded_picture(const Solid& solid, const View& view, uint32_t directions) {
   Image image = studio_picture(solid, view, {0, 0, 0});
