@@ -16,6 +16,9 @@ namespace csgcore {
 constexpr double kStudioAmbient = 0.36;
 constexpr double kStudioKey = 0.56;
 constexpr double kStudioFill = 0.18;
+/// The share of the light from all around that faces throw back: a hollow's walls light each other,
+/// without which one could not see into it.
+constexpr double kStudioReflection = 0.5;
 /// Towards the lights in eye space: to the right, upwards, towards the viewer. Of any length.
 constexpr double kStudioKeyDirection[3] = {-0.55, 0.75, 0.7};
 constexpr double kStudioFillDirection[3] = {0.8, -0.1, 0.6};
@@ -33,11 +36,16 @@ inline StudioLight studio_light(const View& view) {
   return {in_world(kStudioKeyDirection), in_world(kStudioFillDirection)};
 }
 
+/// Returns the light from all around at a point that sees this share of the sky, and walls where
+/// the light is the same: E = open + (1 − open) · kStudioReflection · E.
+inline double sky_and_walls(double open) { return open / (1 - kStudioReflection * (1 - open)); }
+
 /// Returns the share of a face's colour that is seen. `normal` is of unit length, and on the
 /// viewer's side. `open`: the share of the sky that reaches the point; `key`: that of the key
 /// light. Each is in [0, 1].
 inline double studio_shade(const StudioLight& light, const Vec3& normal, double open, double key) {
-  return open * (kStudioAmbient + kStudioFill * std::max(0.0, glm::dot(normal, light.fill))) +
+  return sky_and_walls(open) *
+             (kStudioAmbient + kStudioFill * std::max(0.0, glm::dot(normal, light.fill))) +
          key * kStudioKey * std::max(0.0, glm::dot(normal, light.key));
 }
 

@@ -270,6 +270,20 @@ TEST(Studio, TakesNothingFromWhatIsTranslucent) {
   EXPECT_FALSE(darker(0.5f));
 }
 
+TEST(Studio, WallsLightEachOther) {
+  const StudioLight light = studio_light(from_above({{-1, -1, -1}, {1, 1, 1}}));
+  const auto sky = [&](double open) {
+    return studio_shade(light, Vec3(0, 0, 1), open, 0) / studio_shade(light, Vec3(0, 0, 1), 1, 0);
+  };
+  EXPECT_EQ(sky(0), 0);
+  EXPECT_EQ(sky(1), 1);
+  EXPECT_NEAR(sky(0.5), 2.0 / 3, 1e-12);
+  // Instead of the rest of the sky a point sees half of walls that are as bright as it is.
+  for (const double open : {0.1, 0.3, 0.9}) {
+    EXPECT_NEAR(sky(open), open + (1 - open) * sky(open) / 2, 1e-12);
+  }
+}
+
 TEST(Studio, DarkensWhatIsHidden) {
   const Solid open = plate(Op::kUnion, {});
   const View view = from_above(open.bounds());
