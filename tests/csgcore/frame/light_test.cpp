@@ -15,12 +15,15 @@
 #include "csgcore/light_tracer.hpp"
 #include "csgcore/phong_shadows.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/profile.hpp"
 #include "csgcore/studio.hpp"
 #include "csgcore/studio_light.hpp"
 #include "csgcore/tracer.hpp"
 #include "reference.hpp"
 #include "simd_levels.hpp"
 #include "support/full_run.hpp"
+#include "support/test_meshes.hpp"
+#include "support/test_profiles.hpp"
 #include "trace_scenes.hpp"
 
 namespace csgcore {
@@ -249,12 +252,48 @@ TEST(PhongShadows, LeaveTheAmbientLight) {
   EXPECT_GT(shadows, 20);
 }
 
+/// Convex solids of each kind, and of parts that are flush, in a place where numbers are rounded.
+std::vector<Solid> convex_solids() {
+  const Vec3 z = glm::normalize(Vec3(0.2, -0.1, 1)), x = glm::normalize(glm::cross({0.3, 1, 0}, z));
+  const Affine place{Mat3(x, glm::cross(z, x), z), {13, -7, 3}};
+  const auto box = [&](const Box& bounds) {
+    return make_polyhedron(Polyhedron::box(bounds), place);
+  };
+  const auto profile_of = [](const std::vector<Vec2>& points) {
+    return std::make_shared<Profile>(std::vector<ProfileLoop>{test_support::polygon_loop(points)},
+                                     FillRule::kNonZero);
+  };
+  std::mt19937 random(1);
+  const std::vector<std::vector<Primitive>> all{
+      {box({{-10, -10, -5}, {10, 10, 0}})},
+      {make_frustum(-5, 0, 10, 10, place)},
+      {make_mesh(test_support::sliced_box_parts({10, 10, 2.5}, 8, random).mesh(), place)},
+      {make_extrusion(profile_of({{-10, -10}, {10, -10}, {10, 10}, {-10, 10}}), -5, 0, 1, 1,
+                      place)},
+      {make_revolution(profile_of({{0, -5}, {10, -5}, {10, 0}, {0, 0}}), place)},
+      {box({{-10, -10, -5}, {0.3, 10, 0}}), box({{0.3, -10, -5}, {0.3 + 1e-9, 10, 0}}),
+       box({{-2, -10, -5}, {10, 10, 0}})}};
+  std::vector<Solid> solids;
+  for (const auto& parts : all) {
+    solids.push_back(solid_of(test_support::scene_of(Op::kUnion, parts)));
+  }
+  return solids;
+}
+
 TEST(Studio, TakesNothingFromOpenFaces) {
-  const Solid solid = plate(Op::kUnion, {});
-  const View view = from_above(solid.bounds());
-  const Image image = studio_picture(solid, view, {.edges = 0});
-  const Image colors = studio_picture(solid, view, {0, 0, 0});
-  EXPECT_EQ(image.rgb, colors.rgb);
+  const std::vector<Solid> solids = convex_solids();
+  for (size_t i = 0; i < solids.size(); ++i) {
+    SCOPED_TRACE(i);
+    const Solid& solid = solids[i];
+    for (const Vec3& direction : {Vec3(0.2, 0.3, -1), Vec3(-1, 0.5, -0.3), Vec3(0.1, 1, 0.6)}) {
+      View view = checks::view_of(solid.bounds(), glm::normalize(direction),
+                                  4.5 * solid.bounds().diagonal());
+      view.width_px = view.height_px = 64;
+      const Image image = studio_picture(solid, view, {.edges = 0});
+      const Image colors = studio_picture(solid, view, {0, 0, 0});
+      EXPECT_EQ(image.rgb, colors.rgb);
+    }
+  }
 }
 
 TEST(Studio, TakesNothingFromWhatIsTranslucent) {
