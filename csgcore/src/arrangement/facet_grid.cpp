@@ -1,5 +1,7 @@
 #include "arrangement/facet_grid.hpp"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -16,13 +18,11 @@ class PointNumbers {
   PointNumbers(std::vector<GridPoint>& points, size_t most)
       : points_(points), slots_(std::bit_ceil(2 * most + 1), kNoPlace) {}
 
+  /// Tells the processor that the point will be asked for.
+  void announce(const GridPoint& point) const { hwy::Prefetch(&slots_[slot_of(point)]); }
+
   uint32_t number(const GridPoint& point) {
-    uint64_t hash = 0;
-    for (const int64_t x : point) {
-      hash = (hash ^ static_cast<uint64_t>(x)) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 32;
-    }
-    size_t slot = hash & (slots_.size() - 1);
+    size_t slot = slot_of(point);
     while (slots_[slot] != kNoPlace) {
       if (points_[slots_[slot]] == point) return slots_[slot];
       slot = (slot + 1) & (slots_.size() - 1);
@@ -33,6 +33,15 @@ class PointNumbers {
   }
 
  private:
+  size_t slot_of(const GridPoint& point) const {
+    uint64_t hash = 0;
+    for (const int64_t x : point) {
+      hash = (hash ^ static_cast<uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 32;
+    }
+    return hash & (slots_.size() - 1);
+  }
+
   std::vector<GridPoint>& points_;
   std::vector<uint32_t> slots_;
 };
@@ -151,13 +160,19 @@ Facets facets_on_grid(Surfaces operands) {
   result.facets.reserve(triangles);
   PointNumbers numbers(result.points, vertices);
   std::vector<Facet> flat;
+  std::vector<GridPoint> rounded;
   std::vector<uint32_t> number_of;
   for (uint32_t i = 0; i < operands.size(); ++i) {
-    number_of.clear();
+    rounded.clear();
     for (const Vec3& vertex : operands[i]->vertices) {
       const Vec3 scaled = (vertex - result.middle) * result.scale;
-      number_of.push_back(
-          numbers.number({on_grid(scaled.x), on_grid(scaled.y), on_grid(scaled.z)}));
+      rounded.push_back({on_grid(scaled.x), on_grid(scaled.y), on_grid(scaled.z)});
+    }
+    number_of.clear();
+    for (size_t j = 0; j < rounded.size(); ++j) {
+      constexpr size_t kAhead = 16;  // as many as memory gives at once
+      if (j + kAhead < rounded.size()) numbers.announce(rounded[j + kAhead]);
+      number_of.push_back(numbers.number(rounded[j]));
     }
     for (const auto& triangle : operands[i]->triangles) {
       const Facet facet{{number_of[triangle[0]], number_of[triangle[1]], number_of[triangle[2]]},

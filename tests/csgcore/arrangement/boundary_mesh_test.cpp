@@ -461,6 +461,12 @@ TEST(NeededFacets, AreNotThoseBehindAllFacesOfAnother) {
   EXPECT_THAT(needed_of(parts, flat_tree(Op::kDifference, 2)), testing::ElementsAre(20u, 20u));
 }
 
+TEST(NeededFacets, AreNotThoseBesideTheFacesOfAnother) {
+  // The box of a face of the large one holds the small one, which lies beyond the face's plane.
+  const std::vector<MeshParts> parts{icosahedron(Vec3(0), 9), icosahedron(Vec3(4.8), 0.3)};
+  EXPECT_THAT(needed_of(parts, flat_tree(Op::kDifference, 2)), testing::ElementsAre(20u, 0u));
+}
+
 TEST(Covers, HideWhatAnOperandHoldsThatDecidesBothOthers) {
   using Ends = std::array<Vec3, 2>;
   const std::vector<MeshParts> parts{icosahedron(Vec3(0), 9), icosahedron({3, 0, 0}, 6),
