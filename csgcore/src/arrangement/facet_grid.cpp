@@ -163,16 +163,17 @@ Facets facets_on_grid(Surfaces operands) {
   std::vector<GridPoint> rounded;
   std::vector<uint32_t> number_of;
   for (uint32_t i = 0; i < operands.size(); ++i) {
-    rounded.clear();
-    for (const Vec3& vertex : operands[i]->vertices) {
-      const Vec3 scaled = (vertex - result.middle) * result.scale;
-      rounded.push_back({on_grid(scaled.x), on_grid(scaled.y), on_grid(scaled.z)});
+    const std::vector<Vec3>& all = operands[i]->vertices;
+    rounded.resize(all.size());
+    for (size_t j = 0; j < all.size(); ++j) {
+      const Vec3 scaled = (all[j] - result.middle) * result.scale;
+      rounded[j] = {on_grid(scaled.x), on_grid(scaled.y), on_grid(scaled.z)};
     }
-    number_of.clear();
-    for (size_t j = 0; j < rounded.size(); ++j) {
+    number_of.resize(all.size());
+    for (size_t j = 0; j < all.size(); ++j) {
       constexpr size_t kAhead = 16;  // as many as memory gives at once
-      if (j + kAhead < rounded.size()) numbers.announce(rounded[j + kAhead]);
-      number_of.push_back(numbers.number(rounded[j]));
+      if (j + kAhead < all.size()) numbers.announce(rounded[j + kAhead]);
+      number_of[j] = numbers.number(rounded[j]);
     }
     for (const auto& triangle : operands[i]->triangles) {
       const Facet facet{{number_of[triangle[0]], number_of[triangle[1]], number_of[triangle[2]]},
