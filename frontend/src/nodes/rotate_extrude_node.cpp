@@ -156,16 +156,15 @@ class Revolving {
     if (is_left_) to_right.linear[0].x = -1;
     Affine place;
     if (is_left_) place = turned_about_z(180);
-    result.solid = replaced<SolidPart>(extrusion_.figures, [&](const PlacedFigure& placed) {
-      std::vector<SolidPart> parts;
+    const auto add = [&](const PlacedFigure& placed, std::vector<SolidPart>& parts) {
       std::optional<Primitive> primitive =
           extrusion_.solids().revolved(mapped(compose(to_right, placed.place()), *placed.figure));
-      if (!primitive) return parts;
+      if (!primitive) return;
       primitive->local_to_world = compose(compose(to_world_, place), primitive->local_to_world);
       parts.push_back(drawn_part(std::move(*primitive), extrusion_.frame, placed.id, box_));
       parts.back().facets = data_.arguments.facets;
-      return parts;
-    });
+    };
+    result.solid = replaced<SolidPart>(extrusion_.figures, add);
   }
 
   /// `is_smooth`: the mesh stands for something round.

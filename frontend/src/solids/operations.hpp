@@ -62,17 +62,17 @@ Operations<Part> combined(csgcore::Op op, std::vector<Operations<Part>> operands
   return result;
 }
 
-/// Returns the operations on the unions of those parts that make(part) returns.
+/// Returns the operations on the unions of those parts that make(part, made) adds to `made`.
 template <typename Made, typename Part, typename Make>
 Operations<Made> replaced(const Operations<Part>& operations, const Make& make) {
   Operations<Made> result;
+  result.parts.reserve(operations.parts.size());
   csgcore::CsgTreeBuilder builder;
   rebuild(operations.tree.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t part) {
+    auto next = static_cast<uint32_t>(result.parts.size());
+    make(operations.parts[part], result.parts);
     to.open(csgcore::Op::kUnion);
-    for (Made& made : make(operations.parts[part])) {
-      to.primitive(static_cast<uint32_t>(result.parts.size()));
-      result.parts.push_back(std::move(made));
-    }
+    while (next < result.parts.size()) to.primitive(next++);
     to.close();
   });
   result.tree = builder.finish();

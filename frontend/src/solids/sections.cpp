@@ -131,8 +131,10 @@ std::vector<Figure> section_of_part(const SolidPart& part, bool& has_open_mesh) 
 
 Section section_of(const SolidValue& value) {
   Section result;
-  result.operations = replaced<Figure>(
-      value, [&](const SolidPart& part) { return section_of_part(part, result.has_open_mesh); });
+  const auto add = [&](const SolidPart& part, std::vector<Figure>& figures) {
+    std::ranges::move(section_of_part(part, result.has_open_mesh), std::back_inserter(figures));
+  };
+  result.operations = replaced<Figure>(value, add);
   return result;
 }
 

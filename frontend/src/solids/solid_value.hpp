@@ -16,9 +16,9 @@ namespace frontend {
 /// A part of a solid: a primitive, or the hull of generators.
 struct SolidPart {
   std::optional<csgcore::Primitive> primitive{};
-  uint32_t frame = 0;               // FrameTree; of what is drawn
   csgcore::FacetSettings facets{};  // of a primitive: OpenSCAD's
   bool is_faceted = false;          // of a primitive: its facets stand for something round
+  uint32_t frame = 0;               // FrameTree; of what is drawn
   SupportSet body{};                // if there is no primitive
   /// The box of the corners that OpenSCAD has of it, in the coordinates around it: the world's, of
   /// what is drawn.

@@ -25,7 +25,7 @@ Affine scaled_place(const PlaneMap& map, const Layers& layers) {
 
 }  // namespace
 
-SolidPart drawn_part(Primitive primitive, uint32_t frame, uint32_t id, const Box& box) {
+SolidPart drawn_part(Primitive&& primitive, uint32_t frame, uint32_t id, const Box& box) {
   SolidPart part;
   part.primitive = std::move(primitive);
   part.primitive->id = id;
@@ -44,10 +44,9 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
   LoweredSubtree result;
   result.is_plate = is_plate;
   Box whole;  // in the root's coordinates
-  result.solid = replaced<SolidPart>(figures, [&](const PlacedFigure& placed) {
-    std::vector<SolidPart> parts;
+  const auto add = [&](const PlacedFigure& placed, std::vector<SolidPart>& parts) {
     std::optional<Primitive> primitive = solids.extruded(*placed.figure, layers, placed.profile);
-    if (!primitive) return parts;
+    if (!primitive) return;
     const bool is_upright = layers.top_scale == 1 && layers.lean == Vec2(0.0);
     const Affine to_world =
         is_upright ? compose(frames[placed.frame].to_world, in_space(placed.place_in_node))
@@ -64,8 +63,8 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
     parts.push_back(
         drawn_part(std::move(*primitive), placed.frame, placed.id, mapped(root_to_world, box)));
     parts.back().facets.fn = placed.fragments;
-    return parts;
-  });
+  };
+  result.solid = replaced<SolidPart>(figures, add);
   result.is_union = figures.is_union() && !whole.empty();
   if (result.is_union) result.box = mapped(root_to_world, whole);
   return result;

@@ -41,7 +41,7 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
                        FigureSolids& solids);
 
 /// Returns a part of an extrusion, in the world.
-SolidPart drawn_part(csgcore::Primitive primitive, uint32_t frame, uint32_t id,
+SolidPart drawn_part(csgcore::Primitive&& primitive, uint32_t frame, uint32_t id,
                      const csgcore::Box& box);
 
 /// Returns the union of solids that the extrusion has become, in coordinates of `to_world`, as is

@@ -41,22 +41,22 @@ double flat_thickness(const FigureTree& figures) {
   return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
 }
 
-/// Returns the primitives of a part. What cannot be drawn at any scale is beyond double's numbers
-/// in places.
-std::vector<SolidPart> pieces_of(const SolidPart& part, SolidPool& pool) {
-  if (part.primitive) return {part};
+/// Adds a part in its own coordinates as primitives. What cannot be drawn at any scale is beyond
+/// double's numbers in places.
+void add_pieces(const SolidPart& part, SolidPool& pool, std::vector<SolidPart>& pieces) {
+  if (part.primitive) return pieces.push_back(part);
   const Generators& generators = part.body.generators;
-  if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
+  if (!std::all_of(generators.begin(), generators.end(), is_finite)) return;
   ConvexSolid solid = pool.solid(generators);
-  std::vector<SolidPart> result;
+  auto next = pieces.size();
+  pieces.resize(next + solid.pieces.size());
   for (Primitive& piece : solid.pieces) {
-    SolidPart& own = result.emplace_back();
+    SolidPart& own = pieces[next++];
     own.primitive = std::move(piece);
     own.is_faceted = solid.is_faceted || part.body.is_faceted;
     own.box = part.box;
     own.color = part.color;
   }
-  return result;
 }
 
 }  // namespace
@@ -100,17 +100,18 @@ void thicken_plate(Primitive& part, const Affine& frame_to_world) {
 LoweredSubtree lower_solid(const SolidValue& value, const Affine& to_world, uint32_t frame,
                            uint32_t id, SolidPool& pool) {
   LoweredSubtree result;
-  result.solid = replaced<SolidPart>(value, [&](const SolidPart& part) {
-    csgcore::stop_point();
-    std::vector<SolidPart> pieces = pieces_of(part, pool);
-    for (SolidPart& piece : pieces) {
-      piece.primitive->local_to_world = compose(to_world, piece.primitive->local_to_world);
-      piece.primitive->id = id;
-      piece.frame = frame;
-      piece.box = mapped(to_world, piece.box);
-    }
-    return pieces;
-  });
+  result.solid =
+      replaced<SolidPart>(value, [&](const SolidPart& part, std::vector<SolidPart>& all) {
+        csgcore::stop_point();
+        const size_t before = all.size();
+        add_pieces(part, pool, all);
+        for (SolidPart& piece : std::span(all).subspan(before)) {
+          piece.primitive->local_to_world = compose(to_world, piece.primitive->local_to_world);
+          piece.primitive->id = id;
+          piece.frame = frame;
+          piece.box = mapped(to_world, piece.box);
+        }
+      });
   result.has_operations = !value.is_union();
   if (!result.has_operations) {
     result.box.emplace();
