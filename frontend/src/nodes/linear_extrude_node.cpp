@@ -101,13 +101,12 @@ LoweredSubtree sliced(const Extrusion& extrusion) {
 /// Returns the figures to extrude, as one where the node unites them and they can be united.
 FigureTree figures_to_extrude(const Extrusion& extrusion) {
   const FigureTree& figures = extrusion.figures;
-  if (!std::get<LinearExtrudeNode>(extrusion.data).unites_figures || figures.figures.size() < 2) {
-    return figures;
-  }
+  const auto& data = extrusion.evaluation.data<LinearExtrudeNode>(extrusion.node);
+  if (!data.unites_figures || figures.parts.size() < 2) return figures;
   std::optional<SimplePolygons> polygons = united(extrusion.outcome());
   if (!polygons) return figures;
   const Figure whole = outline_of(std::move(*polygons), csgcore::FillRule::kNonZero);
-  return union_of({&whole, 1}, extrusion.frame, figures.figures.front().id);
+  return union_of({&whole, 1}, extrusion.frame, extrusion.id());
 }
 
 LoweredSubtree extruded(const Extrusion& extrusion) {
