@@ -27,6 +27,7 @@ class Library {
 bool load(FontLibraries::FreeType& freetype) {
   Library library("libfreetype.so.6");
   library.find("FT_Init_FreeType", freetype.init);
+  library.find("FT_Done_FreeType", freetype.done);
   library.find("FT_New_Memory_Face", freetype.new_memory_face);
   library.find("FT_Done_Face", freetype.done_face);
   library.find("FT_Select_Charmap", freetype.select_charmap);

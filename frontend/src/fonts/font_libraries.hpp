@@ -17,6 +17,7 @@ namespace frontend {
 struct FontLibraries {
   struct FreeType {
     decltype(&FT_Init_FreeType) init;
+    decltype(&FT_Done_FreeType) done;
     decltype(&FT_New_Memory_Face) new_memory_face;
     decltype(&FT_Done_Face) done_face;
     decltype(&FT_Select_Charmap) select_charmap;

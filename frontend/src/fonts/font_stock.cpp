@@ -104,13 +104,19 @@ bool are_missing(const std::vector<std::string>& asked, const std::vector<std::s
 FontStock* FontStock::instance() {
   const FontLibraries* const libraries = font_libraries();
   if (libraries == nullptr) return nullptr;
-  // Never destroyed: at the end of a run, fontconfig would take some ms to free what it has read.
-  static FontStock* const stock = new FontStock(*libraries);
-  return stock;
+  static FontStock stock(*libraries);
+  return &stock;
 }
 
 FontStock::FontStock(const FontLibraries& libraries) : libraries_(libraries) {
   if (libraries.freetype.init(&freetype_) != 0) freetype_ = nullptr;
+}
+
+FontStock::~FontStock() {
+  found_.clear();
+  faces_.clear();
+  if (config_ != nullptr) libraries_.fontconfig.config_destroy(config_);
+  if (freetype_ != nullptr) libraries_.freetype.done(freetype_);
 }
 
 void FontStock::use_files(const std::vector<std::string>& files) {

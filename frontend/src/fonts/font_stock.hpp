@@ -65,6 +65,7 @@ class FontStock {
   };
 
   explicit FontStock(const FontLibraries& libraries);
+  ~FontStock();
 
   void load_list();
   FoundFont match(const std::string& pattern);
