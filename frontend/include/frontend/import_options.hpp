@@ -67,6 +67,8 @@ struct ImportOptions {
   bool keeps_places = false;
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
+  /// Fill ImportedDesign::turned_frames, in which an export evaluates what matrices turn.
+  bool keeps_frames = false;
   /// The hulls and the outcomes of operations of the design's last version, of which those that are
   /// the same are not made anew. Null: the design has no version before.
   std::shared_ptr<SolidPool> solids{};

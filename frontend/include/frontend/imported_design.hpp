@@ -9,6 +9,7 @@
 #include "csgcore/scene.hpp"
 #include "frontend/error.hpp"
 #include "frontend/facet_mesh.hpp"
+#include "frontend/turned_frames.hpp"
 
 namespace frontend {
 
@@ -51,6 +52,8 @@ struct ImportedDesign {
   std::vector<std::vector<csgcore::Vec3>> flat_outlines;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;
+  /// Where ImportOptions::keeps_frames asks for them.
+  TurnedFrames turned_frames;
 };
 
 }  // namespace frontend

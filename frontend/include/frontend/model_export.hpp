@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "csgcore/boundary_mesh.hpp"
 #include "csgcore/csg_tree.hpp"
+#include "csgcore/triangle_set.hpp"
 #include "frontend/design_tree.hpp"
 #include "frontend/error.hpp"
 #include "frontend/export_settings.hpp"

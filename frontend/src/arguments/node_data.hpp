@@ -58,8 +58,8 @@ struct RotateExtrudeArguments {
 struct LinearExtrudeNode {
   LinearExtrudeArguments arguments;
   bool is_faceted = false;  // a twisted one has OpenSCAD's slices
-  /// What is needed is the surface: figures are united in the plane. As solids of their own they
-  /// would have ends that lie in one plane only until a rotation rounds them.
+  /// What is needed is the surface: figures are united in the plane, which takes less time than the
+  /// same operations on prisms.
   bool unites_figures = false;
 };
 

@@ -14,6 +14,7 @@
 #include "csgcore/stop_scope.hpp"
 #include "csgcore/workers.hpp"
 #include "export/colored_parts.hpp"
+#include "export/framed_boundary.hpp"
 #include "export/model_writers.hpp"
 #include "export/written_mesh.hpp"
 #include "frontend/render_settings.hpp"
@@ -130,6 +131,7 @@ ImportOptions options_for_export(ImportOptions options) {
   options.facets = Facets::kAll;
   options.keeps_colors = true;
   options.keeps_places = true;
+  options.keeps_frames = true;
   options.measures_leaves = false;
   return options;
 }
@@ -242,7 +244,7 @@ void ModelExport::find_operands() {
 
 const TriangleSet& ModelExport::surface_or_nothing() {
   find_operands();
-  if (!surface_) surface_ = csgcore::boundary_mesh(operands_, solid_);
+  if (!surface_) surface_ = framed_boundary(operands_, solid_, design_.turned_frames);
   return *surface_;
 }
 
@@ -288,7 +290,7 @@ const std::vector<ExportedPart>& ModelExport::parts() {
     return *parts_;
   }
   for (const ColoredTree& part : trees) {
-    TriangleSet surface = csgcore::boundary_mesh(operands_, part.tree);
+    TriangleSet surface = framed_boundary(operands_, part.tree, design_.turned_frames);
     if (!surface.triangles.empty()) parts_->push_back({std::move(surface), part.color});
   }
   if (parts_->empty()) throw Error(tree_.name, {}, "Current top level object is empty.", "");

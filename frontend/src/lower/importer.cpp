@@ -10,6 +10,7 @@
 #include "base/geometry_dialect.hpp"
 #include "frontend/stop.hpp"
 #include "heal/healing.hpp"
+#include "heal/turned_frames.hpp"
 #include "lower/assembly_parts.hpp"
 #include "lower/collector.hpp"
 #include "lower/composition.hpp"
@@ -357,6 +358,9 @@ ImportedDesign finish_import(const DesignTree& tree, Collector& collected,
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,
                  box_around(collected.boxes));
+  if (options.keeps_frames) {
+    design.turned_frames = turned_frames(collected.frames, collected.frame_of);
+  }
   collected.frame_of = {};
   if (collected.compound_leaves.empty() && collected.whole_leaves.empty()) collected.frames = {};
   throw_if_stopped(stop);

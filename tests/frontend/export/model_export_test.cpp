@@ -174,6 +174,62 @@ TEST(ModelExport, AHoleInATurnedExtrusionIsOpen) {
   EXPECT_NEAR(exported.area(), 2 * (2400 - 20 - 63) + 3 * (200 + 18 + 32), 1e-6);
 }
 
+/// A turn by a right triangle's angle about the x axis, and one about z within it.
+const std::string kTurn =
+    "multmatrix([[1,0,0,0],[0,0.8,-0.6,0],[0,0.6,0.8,0],[0,0,0,1]]) "
+    "multmatrix([[0.96,-0.28,0,5],[0.28,0.96,0,7],[0,0,1,3],[0,0,0,1]])";
+
+std::string cube_at(const std::string& offset, const std::string& size) {
+  return "multmatrix([[1,0,0," + offset + "]," + "[0,1,0,1.1],[0,0,1,0],[0,0,0,1]]) cube(size = [" +
+         size + "], center = false);";
+}
+
+/// Returns the area of the design, which is the same when it is turned.
+double turned_area(const std::string& text) {
+  const double area = Exported(text).area();
+  EXPECT_NEAR(Exported(kTurn + "{" + text + "}").area(), area, 1e-9 * area) << text;
+  return area;
+}
+
+TEST(ModelExport, ATurnLeavesFlushSolidsFlush) {
+  const std::string a = cube_at("0", "2, 2, 2"), b = cube_at("2", "2, 2, 2");
+  const std::string plate = cube_at("-1", "6, 6, 2");
+  EXPECT_NEAR(turned_area(a + b), 40, 1e-9);
+  EXPECT_NEAR(turned_area("difference() {" + plate + a + "}"), 2 * (36 - 4) + 2 * (24 + 4), 1e-9);
+  EXPECT_NEAR(turned_area("intersection() {" + plate + "union() {" + a + b + "} }"), 40, 1e-9);
+}
+
+TEST(ModelExport, SolidsUnderEqualTurnsAreFlush) {
+  const std::string a = kTurn + cube_at("0", "2, 2, 2"), b = kTurn + cube_at("2", "2, 2, 2");
+  EXPECT_NEAR(Exported(a + kCube + b).area(), 40 + 22, 1e-9);
+  EXPECT_NEAR(
+      Exported("difference() {" + kTurn + cube_at("-1", "6, 6, 2") + kCube + b + "}").area(),
+      2 * (36 - 4) + 2 * (24 + 4), 1e-9);
+}
+
+TEST(ModelExport, TurnsWithinTurnsAreEvaluatedWithin) {
+  const std::string spun = "multmatrix([[0.6,-0.8,0,0],[0.8,0.6,0,0],[0,0,1,0],[0,0,0,1]])";
+  const std::string a = cube_at("0", "2, 2, 2");
+  turned_area("union() {" + a + spun + "{" + a + cube_at("2", "2, 1, 2") + "} }");
+  turned_area("difference() {" + spun + "difference() {" + cube_at("-1", "6, 6, 2") + a + "}" + a +
+              kTurn + a + "}");
+}
+
+TEST(ModelExport, ATurnThatMirrorsKeepsTheInside) {
+  const std::string mirror = "multmatrix([[0.28,-0.96,0,0],[-0.96,-0.28,0,0],[0,0,1,0],[0,0,0,1]])";
+  Exported exported(mirror + "{" + cube_at("0", "2, 2, 2") + cube_at("2", "2, 2, 2") + "}");
+  EXPECT_NEAR(exported.volume(), 16, 1e-9);
+  EXPECT_NEAR(exported.area(), 40, 1e-9);
+}
+
+TEST(ModelExport, ColorsOfATurnedSolidStayApart) {
+  const std::string text = kTurn + "{color([1,0,0,1])" + cube_at("0", "2, 2, 2") +
+                           "color([0,0,1,1])" + cube_at("2", "2, 2, 2") + "}";
+  const std::string model = Exported(text).three_mf();
+  EXPECT_THAT(model, AllOf(HasSubstr("#FF0000"), HasSubstr("#0000FF")));
+  EXPECT_NEAR(Exported(text).volume(ModelFormat::k3mf), 16, 1e-5);
+}
+
 TEST(ModelExport, EqualPolyhedraStandWhereTheyArePut) {
   const std::string ball = "sphere($fn = 4, $fa = 12, $fs = 2, r = 1);";
   const double one = Exported(ball).volume();
