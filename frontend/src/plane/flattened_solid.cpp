@@ -131,14 +131,30 @@ std::optional<SimplePolygons> united_plan(const TriangleSet& solid, Triangles tr
 /// Removes the holes and specks that rounding has left between groups of triangles, which are
 /// thinner than this share of the size.
 void remove_cracks(SimplePolygons& polygons) {
-  constexpr double kRounding = 0x1p-24;
+  constexpr double kThinnest = 0x1p-24;
   const Rectangle box = bounds_of(polygons);
-  const double thinnest = kRounding * glm::length(box.max - box.min);
+  const double thinnest = kThinnest * glm::length(box.max - box.min);
   std::erase_if(polygons, [&](const Polygon& polygon) {
     double length = 0;
     visit_edges(polygon, [&](const Vec2& a, const Vec2& b) { length += glm::length(b - a); });
     return std::abs(signed_area(polygon)) < thinnest * length;
   });
+}
+
+/// Returns a union of triangles without the spikes and slits that rounding has left along edges
+/// that corners of other triangles are on.
+SimplePolygons without_slits(SimplePolygons polygons) {
+  constexpr double kRounding = 0x1p-26;  // some lines of the grid (outlines.hpp)
+  const Rectangle box = bounds_of(polygons);
+  const double slight = kRounding * glm::length(box.max - box.min);
+  const auto without_rounding = [slight](SimplePolygons rounded) {
+    remove_cracks(rounded);
+    return without_slight_corners(std::move(rounded), slight);
+  };
+  polygons = without_rounding(std::move(polygons));
+  // Polygons that a slit has divided along all of an edge have that edge in common now.
+  std::optional<SimplePolygons> joined = combined(csgcore::Op::kUnion, std::span(&polygons, 1));
+  return joined ? without_rounding(std::move(*joined)) : polygons;
 }
 
 /// Returns the same, for triangles of a rough solid: what lies over each other within a group of
@@ -198,7 +214,7 @@ std::optional<Figure> shadow_of(const TriangleSet& solid, Boundary boundary) {
   std::optional<SimplePolygons> polygons = united_plan(solid, triangles);
   if (!polygons) polygons = united_in_groups(solid, triangles);
   if (!polygons) return std::nullopt;
-  return outline_of(std::move(*polygons));
+  return outline_of(without_slits(std::move(*polygons)));
 }
 
 }  // namespace frontend

@@ -360,12 +360,11 @@ std::optional<Figure> cleaned(Outline outline) {
   return outline_of(std::move(*polygons));
 }
 
-SimplePolygons without_slight_corners(SimplePolygons polygons) {
-  constexpr double kSlight = 1.415 * 0x1p-16;
+SimplePolygons without_slight_corners(SimplePolygons polygons, double rounding) {
   Grid grid(reach_of(bounds_of(polygons)));
   for (Polygon& polygon : polygons) {
     ClipperLib::Paths path = grid.paths(std::span(&polygon, 1));
-    ClipperLib::CleanPolygons(path, grid.scaled(kSlight));
+    ClipperLib::CleanPolygons(path, grid.scaled(rounding));
     if (path.front().size() >= 3) polygon = std::move(grid.polygons(path).front());
   }
   return polygons;

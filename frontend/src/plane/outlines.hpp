@@ -32,10 +32,12 @@ std::optional<SimplePolygons> combined(csgcore::Op op, std::span<const SimplePol
 /// there as far as that can be afforded; nothing if all is empty.
 std::optional<Figure> cleaned(Outline outline);
 
-/// Returns the polygons without the corners that OpenSCAD takes for rounding: those that are within
-/// 1.415 · 2^-16 of a neighbour or of the line through both neighbours. A polygon of which nothing
-/// else is left stays as it is.
-SimplePolygons without_slight_corners(SimplePolygons polygons);
+/// What OpenSCAD takes for rounding.
+constexpr double kOpenScadsRounding = 1.415 * 0x1p-16;
+
+/// Returns the polygons without the corners that are within `rounding` of a neighbour or of the line
+/// through both neighbours. A polygon of which nothing else is left stays as it is.
+SimplePolygons without_slight_corners(SimplePolygons polygons, double rounding);
 
 /// Returns the polygons with fewer corners where they bend smoothly: an edge takes the place of
 /// several that turn by no more than one of 24 in a circle does, and whose corners are within

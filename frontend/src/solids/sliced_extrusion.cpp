@@ -59,7 +59,9 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data, c
   }
   if (outline->empty()) return std::nullopt;
   // Where sides turn, a corner that only rounding has made would show as a stripe.
-  if (std::ranges::all_of(figures, is_polygonal)) outline = without_slight_corners(*outline);
+  if (std::ranges::all_of(figures, is_polygonal)) {
+    outline = without_slight_corners(*outline, kOpenScadsRounding);
+  }
   const double slices =
       given.slices ? *given.slices : slice_count(layers, *outline, given.facets, given.cuts_edges);
   // Smooth sides have pieces of their own.

@@ -119,6 +119,27 @@ TEST(ShadowOfTriangles, IsTheSameWhicheverWayTheyRun) {
   EXPECT_DOUBLE_EQ(area_of(shadow_of(open, Boundary::kOpen).value()), 1);
 }
 
+TEST(ShadowOfTriangles, HasNoSlitsAlongEdgesWithCornersOfOthers) {
+  for (double turn = 0.1; turn < 6; turn += 0.37) {
+    const auto at = [&](double x, double y) {
+      return Vec3(std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y,
+                  0);
+    };
+    // Triangles on both sides of an edge; only those on the right have corners within it.
+    TriangleSet sheet{{at(0, 0), at(30, 10), at(0, 20), at(20, -10)}, {{0, 1, 2}}};
+    constexpr uint32_t kParts = 7;
+    for (uint32_t i = 0; i <= kParts; ++i) {
+      sheet.vertices.push_back(at(30.0 * i / kParts, 10.0 * i / kParts));
+    }
+    for (uint32_t i = 4; i < 4 + kParts; ++i) sheet.triangles.push_back({i + 1, i, 3});
+    const std::optional<Figure> shadow = shadow_of(sheet, Boundary::kOpen);
+    ASSERT_TRUE(shadow);
+    const Outline& outline = std::get<Outline>(*shadow);
+    ASSERT_EQ(outline.loops.size(), 1u) << turn;
+    EXPECT_EQ(outline.loops.front().size(), 4u) << turn;
+  }
+}
+
 TEST(ShadowOfTriangles, OfARoughSolidHasNoCracks) {
   const std::optional<Figure> shadow = shadow_of(rough_ball(180, 0.3), Boundary::kClosed);
   ASSERT_TRUE(shadow);
