@@ -199,6 +199,8 @@ class ExtrusionJudge {
                  Clock::time_point deadline)
       : design_(tree), tree_(*tree.nodes), options_(options), deadline_(deadline) {
     options_.facets = frontend::Facets::kAll;
+    // The snapshots cut long edges that turn, which the facets of the release do not have.
+    options_.language = language::LanguageVersion::k2021;
     if (options.font_files) fonts_ = options.font_files();
   }
 

@@ -38,11 +38,11 @@ class Extrusions : public testing::Test {
     openscad_.emplace("OPENSCAD", folder_.script("openscad", "cat '" + file + "'"));
   }
 
-  static Result judged(const std::string& text) {
+  static Result judged(const std::string& text, const frontend::ImportOptions& options = {}) {
     Settings settings;
     settings.rays = 500;
-    return judge_extrusions(frontend::parse(text, "a.csg"), {}, settings, Clock::time_point::max(),
-                            [](const std::string&, double) {});
+    return judge_extrusions(frontend::parse(text, "a.csg"), options, settings,
+                            Clock::time_point::max(), [](const std::string&, double) {});
   }
 
   frontend::TemporaryFolder folder_;
@@ -57,6 +57,12 @@ TEST_F(Extrusions, AgreeWithOpenScadsFacets) {
   EXPECT_EQ(result.checks[0].disagreed, 0u);
   EXPECT_LT(result.checks[0].undecided, 5u);
   EXPECT_TRUE(result.notes.empty());
+}
+
+TEST_F(Extrusions, OfASnapshotsDesignAreComparedInTheLanguageOfTheRelease) {
+  let_openscad_export(kSides);
+  const Result result = judged(kBar, {.language = language::LanguageVersion::k2026});
+  EXPECT_EQ(result.checks.at(0).disagreed, 0u);
 }
 
 TEST_F(Extrusions, OfAnySizeAreCompared) {
