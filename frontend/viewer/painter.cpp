@@ -311,6 +311,8 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, frontend::RenderS
   settings.measured_channels |= is_channel(settings.show) || overlays.axes || overlays.crosshairs ||
                                 overlays.edges || overlays.scales;
   settings.depth_and_id = has_section || overlays.grid;
+  if (overlays.grid) settings.shares_from = csgcore::kNoPrimitive;
+  if (has_section) settings.shares_from = kFirstSectionFace;
   const Clock::time_point start = Clock::now();
   try {
     load(order);

@@ -84,79 +84,98 @@ class PhaseFinder {
   Gradient height_of_origin_, height_of_direction_, phase_of_origin_, phase_of_direction_;
 };
 
-constexpr uint32_t kNoFace = 0xFFFFFFFFu;
+/// The faces of the section that each pixel shows, from the picture's shares.
+class SeenFaces {
+ public:
+  SeenFaces(const Image& image, std::span<const uint32_t> parts)
+      : width_px_(image.width_px), height_px_(image.height_px), parts_(parts) {
+    const size_t pixels = image.rgb.size();
+    const auto add = [&](const csgcore::PixelShare& share) {
+      if (!is_section_face(share.id)) return;
+      begins_.resize(share.pixel + size_t{1}, static_cast<uint32_t>(seen_.size()));
+      seen_.push_back({share.pixel, share.id - kFirstSectionFace, share.share});
+    };
+    if (image.shares) {
+      for (const csgcore::PixelShare& share : *image.shares) add(share);
+    } else {
+      for (uint32_t pixel = 0; pixel < pixels; ++pixel) add({pixel, image.id[pixel], 1});
+    }
+    begins_.resize(pixels + 1, static_cast<uint32_t>(seen_.size()));
+  }
+
+  /// Calls visit(pixel, x, y, face, share) for all that is seen.
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    for (const csgcore::PixelShare& seen : seen_) {
+      visit(seen.pixel, seen.pixel % width_px_, seen.pixel / width_px_, seen.id, seen.share);
+    }
+  }
+
+  /// Whether the part whose face the pixel shows ends beside it.
+  bool is_outline(uint32_t x, uint32_t y, uint32_t face) const {
+    const size_t pixel = size_t{y} * width_px_ + x;
+    const auto ends = [&](size_t neighbour) { return !shows(neighbour, parts_[face]); };
+    return (x > 0 && ends(pixel - 1)) || (x + 1 < width_px_ && ends(pixel + 1)) ||
+           (y > 0 && ends(pixel - width_px_)) || (y + 1 < height_px_ && ends(pixel + width_px_));
+  }
+
+ private:
+  bool shows(size_t pixel, uint32_t part) const {
+    return std::any_of(seen_.begin() + begins_[pixel], seen_.begin() + begins_[pixel + 1],
+                       [&](const auto& seen) { return parts_[seen.id] == part; });
+  }
+
+  const uint32_t width_px_, height_px_;
+  const std::span<const uint32_t> parts_;  // by face
+  std::vector<csgcore::PixelShare> seen_;  // with faces as ids, pixel by pixel
+  std::vector<uint32_t> begins_;           // by pixel: of its part of seen_; and the end
+};
 
 class SectionPainter {
  public:
   /// `parts` is by face.
   SectionPainter(Image& image, std::span<const uint32_t> parts)
-      : image_(image), parts_(parts), colors_(parts.size()) {}
+      : image_(image), parts_(parts), faces_(image, parts), colors_(parts.size()) {}
 
   /// Finds a colour for each face's lines that is seen on most of it: what is drawn there already
   /// near its border has other colours.
   void choose_colors() {
     struct Sum {
-      std::array<uint64_t, 3> all{};
-      uint64_t pixels = 0;
+      std::array<double, 3> all{};
+      double pixels = 0;
     };
     std::vector<Sum> sums(parts_.size());
-    for_each_pixel([&](size_t pixel, uint32_t x, uint32_t y, uint32_t face) {
-      if (is_outline(x, y)) return;
-      for (size_t i = 0; i < 3; ++i) sums[face].all[i] += image_.rgb[pixel][i];
-      ++sums[face].pixels;
+    faces_.for_each([&](uint32_t pixel, uint32_t x, uint32_t y, uint32_t face, double share) {
+      if (faces_.is_outline(x, y, face)) return;
+      for (size_t i = 0; i < 3; ++i) sums[face].all[i] += share * image_.rgb[pixel][i];
+      sums[face].pixels += share;
     });
     for (size_t face = 0; face < sums.size(); ++face) {
       const auto& [all, pixels] = sums[face];
+      if (!(pixels > 0)) continue;
       frontend::ContrastLines::Color mean{};
-      for (size_t i = 0; i < 3 && pixels > 0; ++i) mean[i] = static_cast<uint8_t>(all[i] / pixels);
-      if (pixels > 0) colors_[face] = frontend::ContrastLines::color_on(mean);
+      for (size_t i = 0; i < 3; ++i) mean[i] = static_cast<uint8_t>(all[i] / pixels);
+      colors_[face] = frontend::ContrastLines::color_on(mean);
     }
   }
 
+  /// Where a face is seen through others, or is translucent, its lines are as faint.
   void draw(std::span<const PhaseFinder> hatches) {
-    for_each_pixel([&](size_t pixel, uint32_t x, uint32_t y, uint32_t face) {
-      const double share = is_outline(x, y) ? kOutlineStrength
-                                            : kHatchStrength * hatches[parts_[face]].coverage(x, y);
+    faces_.for_each([&](uint32_t pixel, uint32_t x, uint32_t y, uint32_t face, double share) {
+      const double line = share * (faces_.is_outline(x, y, face)
+                                       ? kOutlineStrength
+                                       : kHatchStrength * hatches[parts_[face]].coverage(x, y));
       for (size_t i = 0; i < 3; ++i) {
         uint8_t& value = image_.rgb[pixel][i];
-        value = static_cast<uint8_t>(std::lround(value + share * (colors_[face][i] - value)));
+        value = static_cast<uint8_t>(std::lround(value + line * (colors_[face][i] - value)));
       }
     });
   }
 
  private:
-  /// Calls visit(pixel, x, y, face) for all pixels that show a face.
-  template <typename Visit>
-  void for_each_pixel(const Visit& visit) {
-    for (uint32_t y = 0; y < image_.height_px; ++y) {
-      for (uint32_t x = 0; x < image_.width_px; ++x) {
-        const size_t pixel = size_t{y} * image_.width_px + x;
-        const uint32_t face = face_at(pixel);
-        if (face != kNoFace) visit(pixel, x, y, face);
-      }
-    }
-  }
-
-  uint32_t face_at(size_t pixel) const {
-    const uint32_t id = image_.id[pixel];
-    return is_section_face(id) ? id - kFirstSectionFace : kNoFace;
-  }
-
-  /// Whether the part whose face the pixel shows ends beside it.
-  bool is_outline(uint32_t x, uint32_t y) const {
-    const size_t width = image_.width_px, pixel = y * width + x;
-    const uint32_t part = parts_[face_at(pixel)];
-    const auto is_other = [&](size_t neighbour) {
-      const uint32_t face = face_at(neighbour);
-      return face == kNoFace || parts_[face] != part;
-    };
-    return (x > 0 && is_other(pixel - 1)) || (x + 1 < image_.width_px && is_other(pixel + 1)) ||
-           (y > 0 && is_other(pixel - width)) ||
-           (y + 1 < image_.height_px && is_other(pixel + width));
-  }
-
   Image& image_;
   std::span<const uint32_t> parts_;
+  SeenFaces faces_;
   std::vector<frontend::ContrastLines::Color> colors_;  // by face; black until they are chosen
 };
 

@@ -18,8 +18,9 @@ double hatch_spacing(const csgcore::View& view, double distance);
 
 /// Hatches the section's faces, and draws the outlines 1 px wide, within them. Lines lie in the
 /// plane, at places that depend on the plane and the part alone. Where they are closer than pixels
-/// the face is evenly darker. `parts` is CutScene::parts. Precondition: the image has the view's
-/// size and its id channel.
+/// the face is evenly darker. Faces of translucent parts, and those that are seen through such
+/// parts, have lines that are as faint (Image::shares). `parts` is CutScene::parts. Precondition:
+/// the image has the view's size and its id channel.
 void draw_section_faces(csgcore::Image& image, const csgcore::View& view, const SectionPlane& plane,
                         std::span<const uint32_t> parts, double spacing);
 

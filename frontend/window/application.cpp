@@ -114,7 +114,7 @@ Application::Application(const frontend::Options& options)
 void Application::begin_design() {
   state_.picture_dialogue.path = default_picture(options_.input);
   const frontend::Rgb background = state_.look.scheme.background;
-  screen_.load({1, 1, {{background.r, background.g, background.b}}, {}, {}, {}, {}});
+  screen_.load({1, 1, {{background.r, background.g, background.b}}, {}, {}, {}, {}, {}});
   std::error_code failed;
   const std::filesystem::path path = std::filesystem::absolute(options_.input, failed);
   if (!failed && std::filesystem::is_regular_file(path, failed)) {

@@ -28,7 +28,7 @@ struct WrongPixels {
 
 csgcore::Image image_of(const stress::Oracle& oracle, const csgcore::Scene& scene) {
   const csgcore::View& view = oracle.view();
-  csgcore::Image image{view.width_px, view.height_px, {}, {}, {}, {}, {}};
+  csgcore::Image image{view.width_px, view.height_px, {}, {}, {}, {}, {}, {}};
   for (size_t i = 0; i < size_t{view.width_px} * view.height_px; ++i) {
     const oracle::ExactHit& hit = oracle.hit(i);
     image.z.push_back(static_cast<float>(hit.s.lower));

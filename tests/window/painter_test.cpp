@@ -71,6 +71,8 @@ csgcore::Image command_picture(const PaintOrder& order) {
   const csgcore::View view = order.navigation.view(order.size);
   frontend::RenderSettings settings = order.settings;
   settings.measured_channels = true;
+  if (order.overlays.grid) settings.shares_from = csgcore::kNoPrimitive;
+  if (order.section.is_on) settings.shares_from = kFirstSectionFace;
   frontend::RenderStats stats;
   CutScene scene{order.design->scene, {}};
   if (order.section.is_on) {
@@ -237,6 +239,34 @@ TEST_F(PainterTest, LightsAStudioInSteps) {
     for (const Painting& step : {steps[1], steps[2]}) {
       EXPECT_GT(step.light_ms, 0);
       EXPECT_EQ(step.stats.render_ms, steps[0].stats.render_ms);
+    }
+  }
+}
+
+TEST_F(PainterTest, HatchesTheCutFacesOfPartsWithModifiers) {
+  // The middle of a cut ball, which looks at the eye, beside the same of a ball that is only cut.
+  const auto middle = [&](const std::string& text, frontend::Translucency order_of_blending) {
+    PaintOrder order = order_of(design_of(text + window_test::kBall));
+    order.navigation = {{{0, 0, 0}, {0, 0, 0}, 80}, Projection::kOrthographic};
+    order.settings.translucency = order_of_blending;
+    order.section = {true, {0, 0, 1}, false, 0};
+    painter().order(order);
+    const Painting painting = next_final();
+    std::vector<int> row;
+    for (uint32_t x = 70; x < 90; ++x) row.push_back(painting.image.rgb[60 * 160 + x][1]);
+    return row;
+  };
+  using frontend::Translucency;
+  for (const Translucency order : {Translucency::kFile, Translucency::kDepth}) {
+    const auto contrast = [&](const std::string& text) {
+      const std::vector<int> row = middle(text, order);
+      return std::ranges::max(row) - std::ranges::min(row);
+    };
+    const int opaque = contrast("");
+    EXPECT_GT(opaque, 40);
+    for (const std::string modifier : {"%", "#"}) {
+      EXPECT_GT(contrast(modifier), opaque / 5) << modifier;
+      EXPECT_LT(contrast(modifier), opaque) << modifier;
     }
   }
 }

@@ -112,6 +112,21 @@ TEST(SectionHatch, IsSeenOnDarkFacesAndLeavesTheRest) {
   }
 }
 
+TEST(SectionHatch, LinesAreAsFaintAsTheFaceThatTheyAreOn) {
+  const Image opaque = drawn(0);
+  Image image = picture(0, kLight);
+  image.shares.emplace();
+  for (uint32_t i = 0; i < image.id.size(); ++i) {
+    if (image.id[i] != 7) image.shares->push_back({i, image.id[i], 0.25f});
+    image.shares->push_back({i, csgcore::kNoPrimitive, 0.5f});
+  }
+  image.id.assign(image.id.size(), 7);  // what is behind it all
+  draw_section_faces(image, view_at(0), kPlane, kTwoParts, hatch_spacing(view_at(0), 1));
+  for (size_t i = 0; i < image.rgb.size(); ++i) {
+    ASSERT_NEAR(image.rgb[i][0], kLight[0] + (opaque.rgb[i][0] - kLight[0]) / 4.0, 1) << i;
+  }
+}
+
 /// Coarse pictures and planes that are seen from far away are no moiré.
 TEST(SectionHatch, LinesThatAreTooFineAreAnEvenShade) {
   Image image = picture(0, kLight);

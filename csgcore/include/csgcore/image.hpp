@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -11,6 +12,14 @@
 namespace csgcore {
 
 constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
+
+/// The share of a pixel's light that comes from one primitive's surface, through all that is in
+/// front of it.
+struct PixelShare {
+  uint32_t pixel;
+  uint32_t id;  // Primitive::id; kNoPrimitive: of the background
+  float share;  // in (0, 1]
+};
 
 /// Row-major from the top left corner. `rgb` always holds width·height entries. The measured
 /// channels hold as many or, if they were not asked for, none.
@@ -22,6 +31,9 @@ struct Image {
   std::vector<glm::vec3> normal;    // unit, world space, outward of the solid; 0 at a miss
   std::vector<glm::vec3> position;  // world space; 0 at a miss
   std::vector<uint32_t> id;  // Primitive::id of the surface that is hit; kNoPrimitive at a miss
+  /// What pixels show of the ids that were asked for, in the order of pixels, then of ids. None:
+  /// nothing translucent was drawn, and each pixel shows what `id` has.
+  std::optional<std::vector<PixelShare>> shares;
 };
 
 /// Which boundary of the solid a ray shows.

@@ -70,6 +70,9 @@ struct RenderSettings {
   unsigned threads = 0;            // 0: as many as the machine has
   bool measured_channels = false;  // also fill Image's z, normal, position and id
   bool depth_and_id = false;       // at least z and id
+  /// Of the surfaces with ids from this one on, and of the background, fill Image::shares where
+  /// anything translucent is drawn. None: do not.
+  std::optional<uint32_t> shares_from;
   /// Also fill those RenderStats that take extra work: T_S, T_R and S_R, for which OpenGL draws
   /// again.
   bool all_stats = false;

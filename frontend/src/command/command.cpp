@@ -208,6 +208,7 @@ class Run {
   Image draw(const csgcore::Scene& scene, const csgcore::View& view, bool sees_nothing) {
     RenderSettings settings = options_.render;
     const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
+    if (options_.overlays.grid) settings.shares_from = csgcore::kNoPrimitive;
     settings.measured_channels = shows_channel || options_.overlays.any() || writes_exr();
     settings.all_stats = !options_.stats_path.empty();
     settings.progress = [this](const char* stage, double fraction) {

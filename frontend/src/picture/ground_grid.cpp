@@ -1,18 +1,21 @@
-// A faint grid in the plane z = 0, where the picture shows no solid.
+// A faint grid in the plane z = 0, behind all solids: it is seen as far as the background is.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "frontend/overlays.hpp"
 #include "picture/edge_overlay.hpp"
 #include "picture/overlay_lines.hpp"
+#include "render/solid_renderer.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Image;
+using csgcore::PixelShare;
 using csgcore::Vec3;
 using csgcore::View;
 
@@ -39,14 +42,17 @@ struct GroundPoint {
 
 class GridPainter {
  public:
-  GridPainter(Image& image, const View& view, const Camera& camera, Rgb background, double line_px)
+  GridPainter(Image& image, const View& view, const Camera& camera, const ColorScheme& scheme,
+              double line_px)
       : image_(image),
         spacing_(grid_spacing(view, camera)),
         target_(camera.target),
         reach_(kReach * height_at_target(view, camera)),
         line_px_(line_px),
-        line_(ContrastLines::color_on({background.r, background.g, background.b})),
+        line_(ContrastLines::color_on(
+            {scheme.background.r, scheme.background.g, scheme.background.b})),
         corner_(csgcore::pixel_ray(view, 0, 0)) {
+    set_background(scheme, frame_);
     const csgcore::Ray right = csgcore::pixel_ray(view, 1, 0);
     const csgcore::Ray below = csgcore::pixel_ray(view, 0, 1);
     per_column_ = {right.origin - corner_.origin, right.direction - corner_.direction};
@@ -61,14 +67,30 @@ class GridPainter {
 
  private:
   void draw_row(uint32_t y) {
+    const std::size_t first = std::size_t{y} * image_.width_px;
+    if (image_.shares) return draw_shares(y, first, first + image_.width_px);
     for (uint32_t x = 0; x < image_.width_px; ++x) {
-      const std::size_t pixel = std::size_t{y} * image_.width_px + x;
-      if (std::isfinite(image_.z[pixel])) continue;
-      const double strength = strength_at(x, y);
-      for (std::size_t i = 0; i < 3 && strength > 0; ++i) {
-        uint8_t& value = image_.rgb[pixel][i];
-        value = static_cast<uint8_t>(std::lround(value + strength * (line_[i] - value)));
-      }
+      if (!std::isfinite(image_.z[first + x])) draw_pixel(x, y, image_.rgb[first + x], 1);
+    }
+  }
+
+  void draw_shares(uint32_t y, std::size_t first, std::size_t end) {
+    const auto begin = std::ranges::lower_bound(*image_.shares, first, {}, &PixelShare::pixel);
+    for (auto seen = begin; seen != image_.shares->end() && seen->pixel < end; ++seen) {
+      if (seen->id != csgcore::kNoPrimitive) continue;
+      const std::array<uint8_t, 3> background = background_pixel(frame_, y, image_.height_px);
+      draw_pixel(static_cast<uint32_t>(seen->pixel - first), y, background, seen->share);
+    }
+  }
+
+  /// Changes a pixel by as much as the background, of which it shows this share.
+  void draw_pixel(uint32_t x, uint32_t y, const std::array<uint8_t, 3>& background, double share) {
+    const double strength = share * strength_at(x, y);
+    if (!(strength > 0)) return;
+    std::array<uint8_t, 3>& color = image_.rgb[std::size_t{y} * image_.width_px + x];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double value = color[i] + strength * (line_[i] - background[i]);
+      color[i] = static_cast<uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
     }
   }
 
@@ -116,6 +138,7 @@ class GridPainter {
   }
 
   Image& image_;
+  csgcore::FrameSettings frame_;  // the background's colour alone
   const double spacing_;
   const Vec3 target_;
   const double reach_, line_px_;
@@ -132,9 +155,9 @@ double grid_spacing(const View& view, const Camera& camera) {
   return std::pow(10.0, std::floor(std::log10(height_at_target(view, camera) / 2)));
 }
 
-void draw_ground_grid(Image& image, const View& view, const Camera& camera, Rgb background,
-                      double line_px) {
-  GridPainter(image, view, camera, background, line_px).draw();
+void draw_ground_grid(Image& image, const View& view, const Camera& camera,
+                      const ColorScheme& scheme, double line_px) {
+  GridPainter(image, view, camera, scheme, line_px).draw();
 }
 
 }  // namespace frontend

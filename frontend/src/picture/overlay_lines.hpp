@@ -67,10 +67,11 @@ void draw_axes(LinePainter& painter, double reach);
 void draw_gnomon(Canvas& canvas, const csgcore::View& view, Rgb label_color);
 
 /// Draws a grid of grid_spacing(), with ten times as many fainter lines, in the plane z = 0 around
-/// what the camera looks at, where the picture's z channel shows nothing. Lines are `line_px` wide,
-/// and left out where they are close.
+/// what the camera looks at, as far as the picture shows the background: through what is
+/// translucent by its share (Image::shares). Lines are `line_px` wide, and left out where they are
+/// close.
 void draw_ground_grid(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
-                      Rgb background, double line_px);
+                      const ColorScheme& scheme, double line_px);
 
 /// Draws marks and numbers along the six half-axes, up to the camera's distance. The numbers lie in
 /// the planes in which OpenSCAD draws them, so that from some sides they are seen edge-on or

@@ -29,7 +29,7 @@ void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camer
   Canvas canvas(image, scheme.crosshair);
   if (!sees_nothing(camera, view.projection)) {
     if (overlays.grid) {
-      draw_ground_grid(image, view, camera, scheme.background, overlays.grid_line_px);
+      draw_ground_grid(image, view, camera, scheme, overlays.grid_line_px);
     }
     if (overlays.edges) {
       const MeshLookup meshes(design);

@@ -1,5 +1,7 @@
 #include "render/layers.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -147,13 +149,14 @@ LayerSurfaces::LayerSurfaces(const std::vector<const PreparedLayer*>& layers,
 }
 
 Compositor::Compositor(Image& image, std::span<const float> depth, double scene_size,
-                       const LayerSurfaces& surfaces)
+                       const LayerSurfaces& surfaces, std::optional<uint32_t> shares_from)
     : image_(image),
       scene_size_(scene_size),
       surfaces_(surfaces),
       turns_(surfaces.blended),
       squares_across_((image.width_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px),
-      stride_px_(squares_across_ * kSurfaceSquare_px) {
+      stride_px_(squares_across_ * kSurfaceSquare_px),
+      shares_from_(shares_from) {
   depth_.resize(size_t{stride_px_} * image.height_px, kNothing);
   for (uint32_t y = 0; y < image.height_px && !depth.empty(); ++y) {
     std::ranges::copy(depth.subspan(size_t{y} * image.width_px, image.width_px),
@@ -164,6 +167,105 @@ Compositor::Compositor(Image& image, std::span<const float> depth, double scene_
   squares_.assign(size_t{squares_across_} * squares_down,
                   {kNothing, kNothing, kNoLayer, false, true});
   if (surfaces.order == Translucency::kDepth) kept_.resize(squares_.size());
+  if (shares_from_) start_shares();
+}
+
+namespace {
+
+/// Calls visit(pixel in the square, pixel of the picture) for each pixel of a square.
+template <typename Visit>
+void for_each_pixel_of_square(const Image& image, size_t square, const Visit& visit) {
+  const size_t across = (image.width_px + kSurfaceSquare_px - 1) / kSurfaceSquare_px;
+  const size_t left = square % across * kSurfaceSquare_px;
+  const size_t top = square / across * kSurfaceSquare_px;
+  for (uint32_t i = 0; i < kSurfaceSquare_px * kSurfaceSquare_px; ++i) {
+    const size_t x = left + i % kSurfaceSquare_px, y = top + i / kSurfaceSquare_px;
+    if (x < image.width_px && y < image.height_px) visit(i, y * image.width_px + x);
+  }
+}
+
+}  // namespace
+
+/// The shares of what stands in the picture before any layer is drawn.
+void Compositor::start_shares() {
+  shares_.resize(squares_.size());
+  tbb::parallel_for(size_t{0}, shares_.size(), [this](size_t square) {
+    for_each_pixel_of_square(image_, square, [&](uint32_t in_square, size_t pixel) {
+      const uint32_t id = image_.id.empty() ? csgcore::kNoPrimitive : image_.id[pixel];
+      if (has_share(id)) shares_[square].push_back({in_square, id, 1});
+    });
+  });
+}
+
+/// Draws pixels over those shares that are known.
+void Compositor::share(const PreparedLayer& layer, const PixelBlock& block,
+                       const csgcore::SurfacePixels& pixels) {
+  std::vector<csgcore::PixelShare>& shares = shares_[square_at(block.x, block.y)];
+  // A block is as wide as the square.
+  const uint32_t first = block.y % kSurfaceSquare_px * kSurfaceSquare_px;
+  std::array<float, PixelBlock::kPixels> light;
+  light.fill(1);
+  for (uint32_t left = block.pixels; left != 0; left &= left - 1) {
+    const auto pixel = static_cast<uint32_t>(std::countr_zero(left));
+    light[pixel] = 1 - std::min(layer.opacity(pixels.id[pixel]), 1.0f);
+  }
+  for (csgcore::PixelShare& below : shares) {
+    if (below.pixel - first < light.size()) below.share *= light[below.pixel - first];
+  }
+  std::erase_if(shares, [](const auto& below) { return !(below.share > 0); });
+  for (uint32_t left = block.pixels; left != 0; left &= left - 1) {
+    const auto pixel = static_cast<uint32_t>(std::countr_zero(left));
+    const uint32_t id = pixels.id[pixel];
+    if (has_share(id)) shares.push_back({first + pixel, id, 1 - light[pixel]});
+  }
+}
+
+std::optional<std::vector<csgcore::PixelShare>> Compositor::shares(uint32_t side) const {
+  if (!shares_from_) return std::nullopt;
+  const uint32_t width = image_.width_px / side;
+  const size_t rows = squares_.size() / squares_across_;
+  // Bands of `side` rows of squares, which are so many rows of the smaller picture.
+  std::vector<std::vector<csgcore::PixelShare>> bands((rows + side - 1) / side);
+  tbb::parallel_for(size_t{0}, bands.size(), [&](size_t band) {
+    // Most shares are the background's, and need not be sorted.
+    std::vector<float> background(size_t{width} * kSurfaceSquare_px);
+    std::vector<csgcore::PixelShare> others;
+    const size_t begin = band * side, end = std::min(begin + side, rows);
+    const auto first = static_cast<uint32_t>(band * background.size());
+    for (size_t square = begin * squares_across_; square < end * squares_across_; ++square) {
+      const auto left = static_cast<uint32_t>(square % squares_across_) * kSurfaceSquare_px;
+      const auto top = static_cast<uint32_t>(square / squares_across_) * kSurfaceSquare_px;
+      for (const csgcore::PixelShare& of_fine : shares_[square]) {
+        const uint32_t x = (left + of_fine.pixel % kSurfaceSquare_px) / side;
+        const uint32_t y = (top + of_fine.pixel / kSurfaceSquare_px) / side;
+        const float share = of_fine.share / static_cast<float>(side * side);
+        if (of_fine.id == csgcore::kNoPrimitive) {
+          background[y * width + x - first] += share;
+        } else {
+          others.push_back({y * width + x, of_fine.id, share});
+        }
+      }
+    }
+    std::ranges::sort(others, [](const auto& a, const auto& b) {
+      return std::tuple(a.pixel, a.id, a.share) < std::tuple(b.pixel, b.id, b.share);
+    });
+    auto other = others.begin();
+    for (uint32_t i = 0; i < background.size(); ++i) {
+      std::vector<csgcore::PixelShare>& shares = bands[band];
+      const size_t before = shares.size();
+      for (; other != others.end() && other->pixel == first + i; ++other) {
+        if (shares.size() > before && shares.back().id == other->id) {
+          shares.back().share += other->share;
+        } else {
+          shares.push_back(*other);
+        }
+      }
+      if (background[i] > 0) shares.push_back({first + i, csgcore::kNoPrimitive, background[i]});
+    }
+  });
+  std::vector<csgcore::PixelShare> all;
+  for (const auto& band : bands) all.insert(all.end(), band.begin(), band.end());
+  return all;
 }
 
 size_t Compositor::square_at(uint32_t x, uint32_t y) const {
@@ -319,6 +421,7 @@ void Compositor::draw(uint32_t turn, const PixelBlock& block,
                       const csgcore::SurfacePixels& pixels) {
   const Turn& own = turns_[turn];
   if (!kept_.empty()) return keep(turn, block, pixels);
+  if (shares_from_) share(*own.layer, block, pixels);
   for_each_row(block, stride_px_, [&](uint32_t first, size_t index) {
     const uint32_t drawn = block.pixels >> first & kRowPixels;
     const size_t row = block.y + first / PixelBlock::kWidth_px;
@@ -349,8 +452,8 @@ void Compositor::keep(uint32_t turn, const PixelBlock& block,
     const uint32_t x = block.x + pixel % PixelBlock::kWidth_px;
     const uint32_t y = block.y + pixel / PixelBlock::kWidth_px;
     const uint32_t in_square = y % kSurfaceSquare_px * kSurfaceSquare_px + x % kSurfaceSquare_px;
-    kept.fragments.push_back(
-        {pixels.z[pixel], opacity, pixels.rgb[pixel], static_cast<uint8_t>(in_square), turn});
+    kept.fragments.push_back({pixels.z[pixel], opacity, pixels.rgb[pixel],
+                              static_cast<uint8_t>(in_square), turn, pixels.id[pixel]});
     float& depth = depth_[size_t{y} * stride_px_ + x];
     if (opacity == 1) depth = std::min(depth, pixels.z[pixel]);
   }
@@ -448,11 +551,25 @@ void Compositor::blend_pixel(std::span<Fragment> fragments, std::array<uint8_t, 
 
 void Compositor::blend_square(uint32_t x, uint32_t y) {
   Kept kept = std::exchange(kept_[square_at(x, y)], {});
+  std::array<float, kSurfaceSquare_px * kSurfaceSquare_px> light;  // that comes through, by pixel
+  light.fill(1);
+  std::vector<csgcore::PixelShare> shares;
   for_each_pixel(kept.fragments, [&](uint32_t pixel, std::span<Fragment> fragments) {
     const size_t row = y + pixel / kSurfaceSquare_px, column = x + pixel % kSurfaceSquare_px;
-    blend_pixel(seen(fragments, depth_[row * stride_px_ + column]),
-                image_.rgb[row * image_.width_px + column]);
+    const std::span<Fragment> those = seen(fragments, depth_[row * stride_px_ + column]);
+    blend_pixel(those, image_.rgb[row * image_.width_px + column]);
+    for (auto nearest = those.rbegin(); shares_from_ && nearest != those.rend(); ++nearest) {
+      const float share = light[pixel] * nearest->opacity;
+      if (has_share(nearest->id) && share > 0) shares.push_back({pixel, nearest->id, share});
+      light[pixel] *= 1 - nearest->opacity;
+    }
   });
+  if (!shares_from_) return;
+  for (csgcore::PixelShare below : shares_[square_at(x, y)]) {
+    below.share *= light[below.pixel];
+    if (below.share > 0) shares.push_back(below);
+  }
+  shares_[square_at(x, y)] = std::move(shares);
 }
 
 void Compositor::end(const csgcore::PixelArea& area) {

@@ -95,13 +95,18 @@ class Compositor final : public csgcore::SurfaceSink {
   /// nothing if no pixel shows anything. Of the image's channels only rgb changes. Surfaces
   /// coincide where they are nearer than a rounding error of a picture of a scene of this size
   /// (world units): the later one is then drawn.
+  /// `shares_from` is that of RenderSettings; what a pixel of `image` shows is what its id channel
+  /// has or, if there is none, the background.
   Compositor(csgcore::Image& image, std::span<const float> depth, double scene_size,
-             const LayerSurfaces& surfaces);
+             const LayerSurfaces& surfaces, std::optional<uint32_t> shares_from);
 
   /// Blends the surface of a turn from its picture in the area, with z and id channels.
   void blend(uint32_t turn, const csgcore::Image& picture, const csgcore::PixelArea& area);
   /// Ends the picture, once all turns have been drawn.
   void finish();
+  /// Returns Image::shares of the finished picture, made smaller by averaging squares of so many
+  /// pixels a side, or nothing if none were asked for.
+  std::optional<std::vector<csgcore::PixelShare>> shares(uint32_t side) const;
 
   bool wants(uint32_t turn, const csgcore::PixelArea& area, float nearest_z) const override;
   uint32_t wanted(uint32_t turn, const csgcore::PixelBlock& block, float nearest_z,
@@ -139,6 +144,7 @@ class Compositor final : public csgcore::SurfaceSink {
     std::array<uint8_t, 3> rgb;
     uint8_t pixel;  // in the square, from its top left
     uint32_t turn;
+    uint32_t id;  // Primitive::id
   };
 
   /// The fragments of a square.
@@ -148,6 +154,10 @@ class Compositor final : public csgcore::SurfaceSink {
   };
   static constexpr size_t kFewFragments = 2048;
 
+  bool has_share(uint32_t id) const { return shares_from_ && id >= *shares_from_; }
+  void start_shares();
+  void share(const PreparedLayer& layer, const csgcore::PixelBlock& block,
+             const csgcore::SurfacePixels& pixels);
   void keep(uint32_t turn, const csgcore::PixelBlock& block, const csgcore::SurfacePixels& pixels);
   void drop_hidden(uint32_t x, uint32_t y);
   std::span<Fragment> seen(std::span<Fragment> fragments, float& nearest_opaque) const;
@@ -175,6 +185,9 @@ class Compositor final : public csgcore::SurfaceSink {
   std::vector<uint32_t> last_layer_;  // that is seen at each pixel; none if no part asks for it
   mutable std::vector<Square> squares_;
   std::vector<Kept> kept_;  // by square; none in the file's order
+  const std::optional<uint32_t> shares_from_;
+  // By square: shares so far. Their pixels are those in the square, from its top left.
+  std::vector<std::vector<csgcore::PixelShare>> shares_;
 };
 
 }  // namespace frontend

@@ -138,9 +138,11 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   }
   const LayerSurfaces surfaces(composition.layers, frame, request.settings.translucency);
   if (!composition.model_is_layered && !has_shadows) {
-    Compositor compositor(image, image.z, scene_box_.diagonal(), surfaces);
+    Compositor compositor(image, image.z, scene_box_.diagonal(), surfaces,
+                          request.settings.shares_from);
     renderer.draw_layers(surfaces, request, compositor);
     compositor.finish();
+    image.shares = compositor.shares(1);
     return image;
   }
   // Layers and shadows have one ray a pixel. So a smooth picture of them is one of more
@@ -162,9 +164,11 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
     draw_shadows(model_, scene_box_, of_fine, fine);
   }
   if (!composition.layers.empty()) {
-    Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces);
+    Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces,
+                          request.settings.shares_from);
     renderer.draw_layers(surfaces, of_fine, compositor);
     compositor.finish();
+    image.shares = compositor.shares(side);
   }
   if (has_shadows && composition.model_is_layered) draw_shadows(model_, scene_box_, of_fine, fine);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);

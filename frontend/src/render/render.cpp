@@ -21,7 +21,7 @@ bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
     return std::tuple(s.scheme.background, s.scheme.background_below, s.scheme.front, s.scheme.back,
                       s.scheme.axes, s.from_within, s.shading, s.show, s.technique, s.samples,
                       s.leaf_primitives, s.threshold_px, s.measured_channels, s.depth_and_id,
-                      s.translucency, s.phong_shadows);
+                      s.shares_from, s.translucency, s.phong_shadows);
   };
   return what(a) == what(b) && a.studio == b.studio;
 }

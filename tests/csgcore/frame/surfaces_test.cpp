@@ -40,7 +40,7 @@ class Recorder final : public SurfaceSink {
  public:
   Recorder(const View& view, size_t turns, bool sees_through)
       : view_(view), sees_through_(sees_through) {
-    Image none{view.width_px, view.height_px, {}, {}, {}, {}, {}};
+    Image none{view.width_px, view.height_px, {}, {}, {}, {}, {}, {}};
     none.rgb.resize(size_t{view.width_px} * view.height_px);
     none.z.assign(none.rgb.size(), kNothing);
     none.id.assign(none.rgb.size(), kNoPrimitive);

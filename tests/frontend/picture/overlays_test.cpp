@@ -357,6 +357,27 @@ TEST_F(Overlay, TheGridLiesOnTheGroundWhereNoSolidIsSeen) {
   EXPECT_EQ(draw(25).rgb[256 * 512 + 256], (std::array<uint8_t, 3>{255, 255, 255}));
 }
 
+TEST_F(Overlay, TheGridIsSeenThroughWhatIsTranslucentAsTheBackgroundIs) {
+  overlays_ = {.grid = true};
+  const Image open = draw(kMiss), hidden = draw(25);
+  Image image = open;
+  image.rgb.assign(open.rgb.size(), {90, 90, 90});
+  image.z.assign(open.rgb.size(), 25);
+  image.shares.emplace();
+  for (uint32_t i = 0; i < open.rgb.size(); i += 2) {
+    image.shares->push_back({i, 7, 0.5f});
+    image.shares->push_back({i, csgcore::kNoPrimitive, 0.25f});
+  }
+  overlay(image);
+  size_t lines = 0;
+  for (size_t i = 0; i < open.rgb.size(); ++i) {
+    const double wanted = i % 2 == 0 ? (open.rgb[i][0] - 255) / 4.0 : 0;
+    lines += wanted < -5;
+    ASSERT_NEAR(image.rgb[i][0] - 90, wanted, 1) << i;
+  }
+  EXPECT_GT(lines, 500u);
+}
+
 TEST_F(Overlay, TheGridOfACoarsePictureIsAsBright) {
   overlays_ = {.grid = true};
   const auto mean = [&](double line_px) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "frontend/camera.hpp"
 #include "frontend/error.hpp"
@@ -298,6 +299,82 @@ TEST_P(Layers, ManyLayersAreDrawnWhereTheyAre) {
   const Color glass = over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5);
   EXPECT_NEAR(image.rgb[16 * 33 + 16][1], glass[1], 2);
   EXPECT_NEAR(image.rgb[16 * 33 + 16 + 5][1], kPaper[1], 0) << "between two cubes";
+}
+
+/// By pixel, the red light of a picture whose background is black or white, less than the other's.
+std::vector<double> share_by_color(const Image& black, const Image& white) {
+  std::vector<double> shares;
+  for (size_t i = 0; i < black.rgb.size(); ++i) {
+    shares.push_back((white.rgb[i][0] - black.rgb[i][0]) / 255.0);
+  }
+  return shares;
+}
+
+TEST_P(Layers, TellWhatIsSeenOfTheBackground) {
+  const std::string designs[] = {
+      "%" + kCube, moved(3, 2, -20, kCube) + "#" + kCube + "%" + moved(-4, 3, 9, kCube),
+      colored("[1, 0, 0, 0.25]", kCube) + moved(0, 4, -20, colored(kRedGlass, kCube)) + kSmallCube,
+      colored("[1, 0, 0, 0]", kCube) + moved(4, 4, -20, kCube),
+      "difference() {" + kCube + colored(kRedGlass, kTall) + "}"};
+  for (const Translucency order : {Translucency::kFile, Translucency::kDepth}) {
+    for (const bool is_studio : {false, true}) {
+      for (const std::string& design : designs) {
+        SCOPED_TRACE(design + (is_studio ? " in the studio" : ""));
+        settings_ = {};
+        settings_.renderer = GetParam().renderer;
+        settings_.technique = GetParam().technique;
+        settings_.translucency = order;
+        if (is_studio) {
+          // Four rays a pixel, and nothing that changes the colours.
+          settings_.shading = Shading::kStudio;
+          settings_.studio.shadows = settings_.studio.occlusion = 0;
+          settings_.studio.edges = 1e-9;
+          settings_.samples = 4;
+        }
+        settings_.scheme.background = {0, 0, 0};
+        const Image black = draw(design);
+        EXPECT_FALSE(black.shares);
+        settings_.scheme.background = {255, 255, 255};
+        settings_.shares_from = csgcore::kNoPrimitive;
+        const Image white = draw(design);
+        ASSERT_TRUE(white.shares);
+        std::vector<double> shares(white.rgb.size());
+        for (const csgcore::PixelShare& seen : *white.shares) {
+          EXPECT_EQ(seen.id, csgcore::kNoPrimitive);
+          EXPECT_EQ(shares.at(seen.pixel), 0);
+          shares[seen.pixel] = seen.share;
+        }
+        const std::vector<double> wanted = share_by_color(black, white);
+        for (size_t i = 0; i < wanted.size(); ++i) {
+          ASSERT_NEAR(shares[i], wanted[i], 3 / 255.0) << i;  // rounded layer by layer
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Layers, TellWhatIsSeenOfSurfaces) {
+  settings_.shares_from = 0;
+  for (const Translucency order : {Translucency::kFile, Translucency::kDepth}) {
+    settings_.translucency = order;
+    const Image image = draw(moved(0, 0, -20, kCube) + "%" + kCube +
+                             moved(0, 0, 20, colored("[1, 0, 0, 0.25]", kSmallCube)));
+    ASSERT_TRUE(image.shares);
+    std::vector<double> sums(image.rgb.size());
+    std::vector<double> middle;
+    for (const csgcore::PixelShare& seen : *image.shares) {
+      sums.at(seen.pixel) += seen.share;
+      if (seen.pixel == 16 * 33 + 16) middle.push_back(seen.share);
+    }
+    EXPECT_THAT(sums, testing::Each(testing::DoubleNear(1, 1e-6)));
+    // Both sides of the small cube, both of the `%` part, which the file's order draws behind that
+    // not at all, and the solid.
+    const double red = 0.75 * 0.75;
+    const double grey = order == Translucency::kFile ? 1 : (1 - kHalf) * (1 - kHalf);
+    std::vector<double> wanted{1 - red, red * grey};
+    if (grey < 1) wanted.push_back(red * (1 - grey));
+    EXPECT_THAT(middle, testing::UnorderedPointwise(testing::DoubleNear(1e-6), wanted));
+  }
 }
 
 std::string name_of(const testing::TestParamInfo<Way>& info) {
