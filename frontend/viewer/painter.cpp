@@ -41,7 +41,7 @@ constexpr double kWholeShare = 0.85;
 /// A ray through a large mesh takes some four times as long as through other solids. Meshes of more
 /// triangles than this in all get fewer directions in the first picture.
 constexpr size_t kManyTriangles = 10'000;
-constexpr uint32_t kFewMeshDirections = 72;
+constexpr uint32_t kFewMeshDirections = 45;
 
 /// Returns the settings of the picture that all steps lead to.
 frontend::RenderSettings last_settings(const PaintOrder& order) {

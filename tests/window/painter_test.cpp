@@ -199,7 +199,7 @@ TEST_F(PainterTest, LightsLargeMeshesByFewerDirectionsAtFirst) {
   order.settings.shading = frontend::Shading::kStudio;
   PaintOrder lit = order;
   lit.settings.samples = frontend::kStudioSamples;
-  lit.settings.studio.directions = 72;
+  lit.settings.studio.directions = 45;
   const auto wanted = command_picture(lit).rgb;
   painter().order(order);
   Painting painting = next_painting();

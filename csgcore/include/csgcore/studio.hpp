@@ -11,7 +11,7 @@
 namespace csgcore {
 
 /// StudioSettings::directions of a first picture: fewer show in hollows.
-constexpr uint32_t kFewDirections = 180;
+constexpr uint32_t kFewDirections = 144;
 
 /// What finish_studio() does.
 struct StudioSettings {
@@ -20,10 +20,10 @@ struct StudioSettings {
   double occlusion = 1;  // of what comes from all around
   double edges = 1;      // lines where faces meet or end
   /// The directions of the whole sky that are asked. A quarter as many go to the key light, or
-  /// a ninth if light is shared.
+  /// a ninth, but at least 9, if light is shared.
   uint32_t directions = 256;
   /// Whether neighbouring pixels ask parts of them for each other, where the same face goes on:
-  /// faster, but light is smoothed over 3 × 3 blocks.
+  /// faster, but occlusion is smoothed over 3 × 3 blocks.
   bool shares_light = true;
   /// Where the picture is made smaller afterwards: the side of the squares of pixels that become
   /// one, which share their light as far as they show the same face. At least 1.

@@ -1,9 +1,10 @@
 // The pixels of a block that show the same face share a point of it. Where the light of points
 // beside each other is shared, a point asks a part of the directions, one of 9 groups, so that the
 // points of any square of 3 × 3 blocks have all of them (interleaved sampling: Keller and Heidrich,
-// Rendering Techniques 2001), and its light is that of the points around it on the same face. Where
-// these ask few groups, it asks some more itself. So each has answers to many directions, however
-// small its face is.
+// Rendering Techniques 2001), and its light is that of the points around it on the same face. It
+// asks the groups that none of these asks itself. So each has answers to all directions, however
+// small its face is. Occlusion is smooth, but the key light's shadows have edges: a point there
+// asks all of that light's directions itself.
 #include "csgcore/studio.hpp"
 
 #include <tbb/parallel_for.h>
@@ -13,6 +14,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -34,9 +36,6 @@ using Groups = uint16_t;  // bits
 constexpr Groups kAllGroups = (1u << kGroups) - 1;
 /// A point's neighbours are in at most so many blocks to each side.
 constexpr uint32_t kReachBlocks = 1;
-/// Where light is shared, a point and its neighbours ask at least so many groups. All of them would
-/// take a third longer, and come nearer by a tenth.
-constexpr int kLeastGroups = 4;
 /// Neighbours share their groups by bands of so many rows of blocks, first every other band and
 /// then those between, which therefore can be dealt with at once.
 constexpr uint32_t kBandRows = 16;
@@ -153,6 +152,12 @@ class Studio {
     uint32_t pixel(uint32_t point) const { return pixels[first_pixel[point]]; }
   };
 
+  /// A point: the i-th of a row.
+  struct Place {
+    uint32_t row, i;
+  };
+  uint32_t point_at(const Place& place) const { return rows_[place.row].first + place.i; }
+
   size_t index(uint32_t x, uint32_t y) const { return size_t{y} * view_.width_px + x; }
 
   Vec3 towards_viewer(const Vec3& position) const {
@@ -230,6 +235,14 @@ class Studio {
     return kNoPoint;
   }
 
+  /// Calls visit(place) for all points in turn.
+  template <typename Visit>
+  void for_each_place(const Visit& visit) const {
+    for (uint32_t row = 0; row < rows_.size(); ++row) {
+      for (uint32_t i = 0; i < rows_[row].size(); ++i) visit(Place{row, i});
+    }
+  }
+
   /// Calls visit(column, row, i) for the i-th point of each row, in parallel for rows.
   template <typename Visit>
   void for_each_point(const Visit& visit) const {
@@ -265,17 +278,6 @@ class Studio {
     return {row.neighbours.data() + begin, row.ends[i] - begin};
   }
 
-  /// Returns groups that are not answered, as many as a point still has to ask.
-  unsigned some_missing(unsigned answered) const {
-    const int least = settings_.shares_light ? kLeastGroups : int{kGroups};
-    unsigned result = 0;
-    for (int count = std::popcount(answered); count < least; ++count) {
-      const unsigned missing = kAllGroups & ~(answered | result);
-      result |= missing & -missing;
-    }
-    return result;
-  }
-
   void share_groups() {
     for_each_point([&](uint32_t column, uint32_t row, uint32_t i) {
       const uint32_t group = row % kSquareBlocks * kSquareBlocks + column % kSquareBlocks;
@@ -290,9 +292,8 @@ class Studio {
           for (uint32_t i = 0; i < rows_[y].size(); ++i) {
             unsigned answered = 0;
             for (const uint32_t other : neighbours_of(rows_[y], i)) answered |= asked_[other];
-            const unsigned more = some_missing(answered);
             Groups& asked = asked_[rows_[y].first + i];
-            asked = static_cast<Groups>(asked | more);
+            asked = static_cast<Groups>(asked | (kAllGroups & ~answered));
           }
         }
       });
@@ -305,57 +306,95 @@ class Studio {
     sums_.resize(sums);
   }
 
+  bool asks(const Place& place, uint32_t group) const {
+    return (asked_[point_at(place)] >> group & 1) != 0;
+  }
+  /// What a point sees of a group that it asks.
+  Light& sum_of(const Place& place, uint32_t group) {
+    const unsigned before = asked_[point_at(place)] & ((1u << group) - 1);
+    return sums_[sums_before_[point_at(place)] + static_cast<uint32_t>(std::popcount(before))];
+  }
+
   uint32_t key_directions() const {
-    return settings_.directions /
-           (settings_.shares_light ? kPerSharedKeyDirection : kPerKeyDirection);
+    const uint32_t all = settings_.directions;
+    // Fewer than one of each group would leave steps in soft shadows.
+    return settings_.shares_light ? std::min(all, std::max(all / kPerSharedKeyDirection, kGroups))
+                                  : all / kPerKeyDirection;
   }
 
   void ask_for_light() {
     const LightTracer tracer(solid_);
+    const bool has_sky = settings_.occlusion > 0, has_key = settings_.shadows > 0;
     tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
-      std::vector<Vec3> positions, normals;
-      std::vector<uint32_t> sums;
-      for (const Row& row : rows_) {
-        for (uint32_t i = 0; i < row.size(); ++i) {
-          const Groups groups = asked_[row.first + i];
-          if ((groups >> group & 1) == 0) continue;
-          const uint32_t begin = row.first_pixel[i], end = row.first_pixel[i + 1];
-          const uint32_t pixel = row.pixels[begin + group % (end - begin)];
-          positions.push_back(hits_.position[pixel]);
-          normals.push_back(hits_.normal[pixel]);
-          const unsigned before = groups & ((1u << group) - 1);
-          sums.push_back(sums_before_[row.first + i] +
-                         static_cast<uint32_t>(std::popcount(before)));
-        }
-      }
-      std::vector<Light> lights(sums.size());
-      std::vector<uint8_t> lit(sums.size());
-      const auto ask = [&](const Vec3& direction, float Light::*all, float Light::*open) {
-        if (options_.stop.stop_requested()) return;
-        tracer.find_lit({positions, normals}, direction, lit, options_.stop);
-        for (size_t i = 0; i < sums.size(); ++i) {
-          const auto cosine = static_cast<float>(std::max(0.0, glm::dot(normals[i], direction)));
-          lights[i].*all += cosine;
-          lights[i].*open += lit[i] != 0 ? cosine : 0;
-        }
-      };
-      if (settings_.occlusion > 0) {
-        const uint32_t count = settings_.directions;
-        for (uint32_t i = group; i < count; i += kGroups) {
-          ask(sky_direction(i, count), &Light::sky, &Light::open_sky);
-        }
-      }
-      if (settings_.shadows > 0) {
-        const uint32_t count = key_directions();
-        for (uint32_t i = group; i < count; i += kGroups) {
-          ask(key_direction(view_, light_.key, i, count), &Light::key, &Light::open_key);
-        }
-      }
-      for (size_t i = 0; i < sums.size(); ++i) sums_[sums[i]] = lights[i];
+      std::vector<Place> places;
+      for_each_place([&](const Place& place) {
+        if (asks(place, group)) places.push_back(place);
+      });
+      const std::vector<Light> lights = ask_group(tracer, places, group, has_sky, has_key);
+      for (size_t i = 0; i < places.size(); ++i) sum_of(places[i], group) = lights[i];
     });
     for_each_point([&](uint32_t, uint32_t row, uint32_t i) {
       lights_[rows_[row].first + i] = light_of(neighbours_of(rows_[row], i));
     });
+    if (settings_.shares_light && has_key) sharpen_shadows(tracer);
+  }
+
+  /// Asks all of the key light's directions at those points that some reach, and others do not:
+  /// what the neighbours see there would blur the shadow's edge.
+  void sharpen_shadows(const LightTracer& tracer) {
+    std::vector<Place> places;
+    for_each_place([&](const Place& place) {
+      const Light& light = lights_[point_at(place)];
+      if (light.open_key > 0 && light.open_key < light.key) places.push_back(place);
+    });
+    std::array<std::vector<Light>, kGroups> answers;
+    tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
+      std::vector<Place> missing;
+      std::ranges::copy_if(places, std::back_inserter(missing),
+                           [&](const Place& place) { return !asks(place, group); });
+      answers[group] = ask_group(tracer, missing, group, false, true);
+    });
+    std::array<size_t, kGroups> next{};
+    for (const Place& place : places) {
+      Light& light = lights_[point_at(place)];
+      light.key = light.open_key = 0;
+      for (uint32_t group = 0; group < kGroups; ++group) {
+        const Light& own =
+            asks(place, group) ? sum_of(place, group) : answers[group][next[group]++];
+        light.key += own.key;
+        light.open_key += own.open_key;
+      }
+    }
+  }
+
+  /// Returns what points see of the directions of a group.
+  std::vector<Light> ask_group(const LightTracer& tracer, std::span<const Place> places,
+                               uint32_t group, bool has_sky, bool has_key) const {
+    std::vector<Vec3> positions, normals;
+    for (const auto& [row, i] : places) {
+      const uint32_t begin = rows_[row].first_pixel[i], end = rows_[row].first_pixel[i + 1];
+      const uint32_t pixel = rows_[row].pixels[begin + group % (end - begin)];
+      positions.push_back(hits_.position[pixel]);
+      normals.push_back(hits_.normal[pixel]);
+    }
+    std::vector<Light> lights(places.size());
+    std::vector<uint8_t> lit(places.size());
+    const auto ask = [&](const Vec3& direction, float Light::*all, float Light::*open) {
+      if (options_.stop.stop_requested()) return;
+      tracer.find_lit({positions, normals}, direction, lit, options_.stop);
+      for (size_t i = 0; i < lights.size(); ++i) {
+        const auto cosine = static_cast<float>(std::max(0.0, glm::dot(normals[i], direction)));
+        lights[i].*all += cosine;
+        lights[i].*open += lit[i] != 0 ? cosine : 0;
+      }
+    };
+    for (uint32_t i = group; has_sky && i < settings_.directions; i += kGroups) {
+      ask(sky_direction(i, settings_.directions), &Light::sky, &Light::open_sky);
+    }
+    for (uint32_t i = group; has_key && i < key_directions(); i += kGroups) {
+      ask(key_direction(view_, light_.key, i, key_directions()), &Light::key, &Light::open_key);
+    }
+    return lights;
   }
 
   /// Returns the light of all of these points, to which each group counts the same.

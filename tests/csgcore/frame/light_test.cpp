@@ -522,6 +522,26 @@ TEST(Studio, LightsSmallFacesAsWell) {
   EXPECT_LT(mean_error(studio_picture(solid, view, settings), wanted, unlit), 6);
 }
 
+TEST(Studio, SharedLightKeepsTheEdgesOfShadows) {
+  // Posts that stand close: their shadows end everywhere.
+  std::vector<Box> posts;
+  for (int x = -9; x <= 9; x += 3) {
+    for (int y = -9; y <= 9; y += 3)
+      posts.push_back({{x - 0.5, y - 0.5, 0}, {x + 0.5, y + 0.5, 3}});
+  }
+  const Solid solid = plate(Op::kUnion, posts);
+  const View view = from_above(solid.bounds());
+  const Image unlit = studio_picture(solid, view, {0, 0, 0});
+  StudioSettings settings{.occlusion = 0, .edges = 0};
+  settings.shares_light = false;
+  settings.directions = 1024;
+  const Image wanted = studio_picture(solid, view, settings);
+  EXPECT_GT(mean_error(unlit, wanted, unlit), 20);
+  settings.shares_light = true;
+  settings.directions = kFewDirections;
+  EXPECT_LT(mean_error(studio_picture(solid, view, settings), wanted, unlit), 1.5);
+}
+
 TEST(Studio, SharesLightWithinBlocks) {
   const Solid solid = plate(Op::kUnion, {{{-3, -3, 0}, {3, 3, 4}}});
   const View view = from_above(solid.bounds());
