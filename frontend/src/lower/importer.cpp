@@ -293,7 +293,7 @@ ResolvedModifiers modifiers_of(const NodeTree& tree, const Collector& collected,
   for (const Collector::WholeLeaf& leaf : collected.whole_leaves) {
     if (leaf.inner_modifiers == 0) leaves[leaf.node] = {leaf.presence, leaf.box, true};
   }
-  ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
+  ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves, picture);
   if (picture != PictureKind::kRendered) {
     add_inner_parts(collected, modifiers);
     return modifiers;

@@ -87,8 +87,9 @@ void apply_modifiers(ResolvedNode& node_state, uint8_t modifiers) {
 /// Walks the nodes and closes each after its last descendant.
 class ModifierResolver {
  public:
-  ModifierResolver(const NodeTree& tree, NodeRange selected, std::span<const LeafState> leaves)
-      : tree_(tree), selected_(selected), leaves_(leaves) {}
+  ModifierResolver(const NodeTree& tree, NodeRange selected, std::span<const LeafState> leaves,
+                   PictureKind picture)
+      : tree_(tree), selected_(selected), leaves_(leaves), picture_(picture) {}
 
   ResolvedModifiers find() {
     resolved_.nodes.resize(tree_.nodes.size(), ResolvedNode{Presence::kAbsent, false, false});
@@ -116,7 +117,12 @@ class ModifierResolver {
     while (open_.size() > 1 && open_.back().end <= position) {
       const OpenOperation done = open_.back();
       open_.pop_back();
-      finish(done.node, close(done), done.box);
+      ResolvedNode node_state = close(done);
+      // A preview passes over an operation of `%` parts alone. A rendering makes an empty solid of
+      // it, which empties an intersection.
+      if (picture_ == PictureKind::kRendered && node_state.presence == Presence::kBackground)
+        node_state.presence = Presence::kEmpty;
+      finish(done.node, node_state, done.box);
     }
   }
 
@@ -165,6 +171,7 @@ class ModifierResolver {
   const NodeTree& tree_;
   NodeRange selected_;
   std::span<const LeafState> leaves_;
+  PictureKind picture_;
   ResolvedModifiers resolved_;
   std::vector<OpenOperation> open_;
 };
@@ -172,8 +179,8 @@ class ModifierResolver {
 }  // namespace
 
 ResolvedModifiers resolve_modifiers(const NodeTree& tree, NodeRange selected,
-                                    std::span<const LeafState> leaves) {
-  return ModifierResolver(tree, selected, leaves).find();
+                                    std::span<const LeafState> leaves, PictureKind picture) {
+  return ModifierResolver(tree, selected, leaves, picture).find();
 }
 
 }  // namespace frontend

@@ -51,6 +51,6 @@ struct LeafState {
 /// `leaves` has the state of each node without children, of each that is taken as a whole, and of
 /// each that cannot be drawn, whose children are not looked at either.
 ResolvedModifiers resolve_modifiers(const NodeTree& tree, NodeRange selected,
-                                    std::span<const LeafState> leaves);
+                                    std::span<const LeafState> leaves, PictureKind picture);
 
 }  // namespace frontend

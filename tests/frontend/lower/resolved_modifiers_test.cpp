@@ -85,6 +85,9 @@ TEST(ImporterModifiers, RenderedIsTheSolidAlone) {
             "(0-2) | - | -");
   EXPECT_EQ(trees_of("difference() { %sphere(); sphere(); sphere(); }", rendered), "(1-2) | - | -");
   EXPECT_EQ(trees_of("%sphere();", rendered), "- | - | -");
+  const std::string meets_group = "intersection() { group() { %sphere(); } sphere(); }";
+  EXPECT_EQ(trees_of(meets_group, rendered), "- | - | -");
+  EXPECT_EQ(trees_of("intersection() { %sphere(); sphere(); }", rendered), "1 | - | -");
   const ImportedDesign red = import_text("color(\"red\") { sphere(); }", rendered);
   EXPECT_FALSE(red.scene.primitives.at(0).color);
   EXPECT_TRUE(import_text("color(\"red\") { sphere(); }").scene.primitives.at(0).color);
