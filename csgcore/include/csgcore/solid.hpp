@@ -58,6 +58,10 @@ struct BoundsBudget {
   uint64_t tests;
 };
 
+/// Returns the tree without operands that change nothing of its solid but for what is thinner than
+/// the thickness tolerance: those that equal another one of their operation, or lie within one.
+CsgTree without_redundant_operands(const CanonicalPrimitives& primitives, const CsgTree& tree);
+
 /// Returns a box that holds all of the tree's solid, but for what is thinner than the thickness
 /// tolerance (NUMERICS.md) and so does not exist. It is empty if nothing else is left. A side is
 /// exact, or as far outside as 2^-13 of the box's largest side; where surfaces meet at the side

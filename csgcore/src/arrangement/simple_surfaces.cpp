@@ -122,6 +122,20 @@ bool is_convex(const Facets& facets, std::span<const Facet> surface) {
   return true;
 }
 
+/// Returns whether a corner of a facet is so near to the edge opposite it that rounding may have
+/// taken it to the other side, so that the facet lies over its neighbour.
+bool has_slivers(const Facets& facets, std::span<const Facet> surface) {
+  return std::ranges::any_of(surface, [&](const Facet& facet) {
+    const auto& [a, b, c] = facet.corners;
+    const Vec3 p = to_vec3(facets.points[a]);
+    const Vec3 q = to_vec3(facets.points[b]) - p;
+    const Vec3 r = to_vec3(facets.points[c]) - p;
+    const Vec3 area = glm::cross(q, r);
+    const double longest = std::max({glm::dot(q, q), glm::dot(r, r), glm::dot(r - q, r - q)});
+    return glm::dot(area, area) <= kFlat * kFlat * longest;
+  });
+}
+
 }  // namespace
 
 std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
@@ -133,6 +147,10 @@ std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
     surfaces[operand] = std::span(facets.facets).subspan(begin, end - begin);
     begin = end;
   }
+  std::vector<uint8_t> has_collapsed(operands.size(), 0);
+  for (const Facets::Touch& touch : facets.touches) {
+    has_collapsed[facets.facets[touch.facet].operand] = 1;
+  }
   std::vector<uint8_t> may_cross(operands.size(), 0);
   const std::stop_token* const stop = stop_of_work;
   tbb::parallel_for(size_t{0}, operands.size(), [&](size_t i) {
@@ -140,7 +158,9 @@ std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
     stop_point();
     const std::span<Facet> surface = surfaces[i];
     if (surface.empty()) return;
-    if (!operands[i]->is_simple && !is_convex(facets, surface)) {
+    const bool is_simple =
+        operands[i]->is_simple && has_collapsed[i] == 0 && !has_slivers(facets, surface);
+    if (!is_simple && !is_convex(facets, surface)) {
       may_cross[i] = 1;
       return;
     }

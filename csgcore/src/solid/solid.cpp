@@ -72,6 +72,12 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   groups_ = std::make_shared<const OperandGroups>(used, std::move(extents));
 }
 
+CsgTree without_redundant_operands(const CanonicalPrimitives& primitives, const CsgTree& tree) {
+  if (tree.empty()) return {};
+  const double tolerance = thickness_tolerance(bounds_of(primitives, tree));
+  return leave_out_redundant(tree, primitives, extents_of(primitives), tolerance).value_or(tree);
+}
+
 std::span<const Extent> Solid::extents() const {
   return std::span(groups_->extents()).first(groups_->first_group());
 }

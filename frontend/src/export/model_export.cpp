@@ -11,6 +11,7 @@
 
 #include "arguments/node_problems.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/solid.hpp"
 #include "csgcore/stop_scope.hpp"
 #include "csgcore/workers.hpp"
 #include "export/colored_parts.hpp"
@@ -244,7 +245,10 @@ void ModelExport::find_operands() {
 
 const TriangleSet& ModelExport::surface_or_nothing() {
   find_operands();
-  if (!surface_) surface_ = framed_boundary(operands_, solid_, design_.turned_frames);
+  if (surface_) return *surface_;
+  const auto primitives = csgcore::canonical_primitives(design_.scene);
+  surface_ = framed_boundary(operands_, csgcore::without_redundant_operands(*primitives, solid_),
+                             design_.turned_frames);
   return *surface_;
 }
 

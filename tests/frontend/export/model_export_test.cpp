@@ -52,6 +52,7 @@ class Exported {
     return enclosed_volume(file.faces);
   }
   double area() { return model_.figures().value().area; }
+  bool is_closed() { return model_.figures().value().is_closed; }
   std::string three_mf() {
     return ZipArchive(as(ModelFormat::k3mf)).unpack("3D/3dmodel.model").value_or("");
   }
@@ -228,6 +229,32 @@ TEST(ModelExport, ColorsOfATurnedSolidStayApart) {
   const std::string model = Exported(text).three_mf();
   EXPECT_THAT(model, AllOf(HasSubstr("#FF0000"), HasSubstr("#0000FF")));
   EXPECT_NEAR(Exported(text).volume(ModelFormat::k3mf), 16, 1e-5);
+}
+
+// All of their faces in one plane would be divided by each other's edges, which takes minutes.
+TEST(ModelExport, SolidsWithinOthersAreLeftOut) {
+  std::string nested;
+  for (int i = 1; i <= 160; ++i) {
+    nested += "cylinder($fn = 6, $fa = 12, $fs = 2, h = " + std::to_string(4 + 0.01 * i) +
+              ", r1 = 10, r2 = 10, center = false);\n";
+  }
+  EXPECT_NEAR(Exported(nested).volume(), 5.6 * 150 * std::sqrt(3.0), 1e-6);
+  // Each colour is a part of its own, also within another.
+  const std::string colors =
+      "color([0,0,1,1]) cube(size = [3, 3, 3], center = true);"
+      "color([1,0,0,1]) cube(size = [1, 1, 1], center = true);";
+  EXPECT_THAT(Exported(colors).three_mf(), AllOf(HasSubstr("#FF0000"), HasSubstr("#0000FF")));
+}
+
+// Convex pieces of such a sum have faces that are as thin as rounding.
+TEST(ModelExport, ASumOfThreeIsClosed) {
+  Exported exported(
+      "minkowski(convexity = 0) { difference() { cube(size = [9, 8, 7], center = false);"
+      "cylinder($fn = 6, $fa = 12, $fs = 2, h = 9, r1 = 2, r2 = 2, center = false); }"
+      "cylinder($fn = 0, $fa = 12, $fs = 2, h = 1, r1 = 1, r2 = 1, center = false);"
+      "sphere($fn = 5, $fa = 12, $fs = 2, r = 1); }");
+  EXPECT_TRUE(exported.is_closed());
+  EXPECT_NEAR(exported.volume(), 1353.5386, 1e-3);
 }
 
 TEST(ModelExport, EqualPolyhedraStandWhereTheyArePut) {
