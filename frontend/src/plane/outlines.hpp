@@ -35,8 +35,8 @@ std::optional<Figure> cleaned(Outline outline);
 /// What OpenSCAD takes for rounding.
 constexpr double kOpenScadsRounding = 1.415 * 0x1p-16;
 
-/// Returns the polygons without the corners that are within `rounding` of a neighbour or of the line
-/// through both neighbours. A polygon of which nothing else is left stays as it is.
+/// Returns the polygons without the corners that are within `rounding` of a neighbour or of the
+/// line through both neighbours. A polygon of which nothing else is left stays as it is.
 SimplePolygons without_slight_corners(SimplePolygons polygons, double rounding);
 
 /// Returns the polygons with fewer corners where they bend smoothly: an edge takes the place of
