@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <tuple>
-#include <unordered_set>
+#include <unordered_map>
 
 #include "csgcore/stop_scope.hpp"
 
@@ -137,10 +137,11 @@ FlushFaces::FlushFaces(std::span<const TriangleSet> operands,
 }
 
 bool FlushFaces::are_among(std::span<const uint32_t> operands) const {
-  std::unordered_set<uint32_t> seen;
+  std::unordered_map<uint32_t, uint32_t> operand_of;  // by plane: the first one
   return std::ranges::any_of(operands, [&](uint32_t operand) {
-    return std::ranges::any_of(planes_of_[operand],
-                               [&](uint32_t plane) { return !seen.insert(plane).second; });
+    return std::ranges::any_of(planes_of_[operand], [&](uint32_t plane) {
+      return operand_of.try_emplace(plane, operand).first->second != operand;
+    });
   });
 }
 

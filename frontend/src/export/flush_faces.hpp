@@ -16,7 +16,7 @@ class FlushFaces {
   FlushFaces(std::span<const csgcore::TriangleSet> operands, std::span<const uint32_t> candidates);
 
   bool empty() const { return planes_of_.empty(); }
-  /// Returns whether two of the operands, each of which is named once, have faces in one plane.
+  /// Returns whether two different ones of the operands have faces in one plane.
   bool are_among(std::span<const uint32_t> operands) const;
 
  private:

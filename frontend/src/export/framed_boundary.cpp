@@ -28,11 +28,6 @@ using csgcore::Op;
 using csgcore::TriangleSet;
 using csgcore::Vec3;
 
-Affine inverse_of(const Affine& map) {
-  const csgcore::Mat3 linear = csgcore::inverse(map.linear);
-  return {linear, -(linear * map.translation)};
-}
-
 /// Makes coordinates along an axis equal that differ by rounding.
 void align(std::vector<TriangleSet>& surfaces, int axis, double rounding) {
   std::vector<double> values;
@@ -95,10 +90,9 @@ class FramedTree {
   TriangleSet boundary() const {
     const auto root = static_cast<uint32_t>(tokens_.size() - 1);
     const Level level = level_of({Op::kUnion, {root}, 0});
-    // No group is worth an evaluation of its own.
-    const bool is_flat =
+    const bool has_no_group =
         std::ranges::all_of(level.parts, [](const Part& part) { return part.group.empty(); });
-    return is_flat ? csgcore::boundary_mesh(operands_, tree_) : boundary_of(level);
+    return has_no_group ? csgcore::boundary_mesh(operands_, tree_) : boundary_of(level);
   }
 
  private:
@@ -158,9 +152,7 @@ class FramedTree {
         if (token.is_primitive) primitives.push_back(token.value);
       }
     }
-    std::ranges::sort(primitives);
-    primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
-    return primitives.size() > 1 && flush_faces_.are_among(primitives);
+    return flush_faces_.are_among(primitives);
   }
 
   /// Returns the operands of an operation in a frame, those of one turned frame within it together.
@@ -278,12 +270,8 @@ class FramedTree {
 
 TriangleSet framed_boundary(std::span<const TriangleSet> operands, const CsgTree& tree,
                             const TurnedFrames& frames) {
-  std::vector<uint32_t> turned;
-  for (const CsgToken& token : tree.tokens()) {
-    if (token.is_primitive && frames.of_primitive[token.value] != 0) turned.push_back(token.value);
-  }
-  std::ranges::sort(turned);
-  turned.erase(std::unique(turned.begin(), turned.end()), turned.end());
+  std::vector<uint32_t> turned = primitives_of(tree.tokens());
+  std::erase_if(turned, [&](uint32_t operand) { return frames.of_primitive[operand] == 0; });
   if (turned.size() > 1) {
     const FlushFaces flush_faces(operands, turned);
     if (!flush_faces.empty()) return FramedTree(operands, tree, frames, flush_faces).boundary();

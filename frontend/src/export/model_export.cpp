@@ -28,7 +28,6 @@ namespace frontend {
 namespace {
 
 using csgcore::Color;
-using csgcore::CsgToken;
 using csgcore::TriangleSet;
 
 /// Returns the colour in steps of 1/255, as files have it. A channel that color() has left open is
@@ -185,12 +184,7 @@ void ModelExport::fail_as_too_small() const {
 void ModelExport::find_operands() {
   if (std::exchange(has_operands_, true)) return;
   const csgcore::Scene& scene = design_.scene;
-  std::vector<uint32_t> used;
-  for (const CsgToken& token : scene.model.tokens()) {
-    if (token.is_primitive) used.push_back(token.value);
-  }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const std::vector<uint32_t> used = primitives_of(scene.model.tokens());
   operands_.resize(scene.primitives.size());
   std::vector<char> is_open(operands_.size());
   // Polyhedra that many primitives share are divided into triangles once.

@@ -23,6 +23,11 @@ double stretch_bound(const Mat3& m) {
   return std::sqrt(std::max(sums.x, std::max(sums.y, sums.z)));
 }
 
+csgcore::Affine inverse_of(const csgcore::Affine& map) {
+  const Mat3 linear = csgcore::inverse(map.linear);
+  return {linear, -(linear * map.translation)};
+}
+
 FrameTree::FrameTree() : frames_(1), errors_(1) {}
 
 void FrameTree::reserve(size_t frames) { frames_.reserve(frames + 1); }

@@ -26,11 +26,14 @@ struct Frame {
   double stretch = 1;  // to_world lengthens no vector by more than this factor
 };
 
-/// All frames of a file; frame 0 is the world.
 /// Returns an upper bound of how much the matrix stretches. For a similarity the bound is its scale
 /// itself, so that it does not grow along a chain of rotations.
 double stretch_bound(const csgcore::Mat3& m);
 
+/// Returns the inverse of a map whose determinant is not 0.
+csgcore::Affine inverse_of(const csgcore::Affine& map);
+
+/// All frames of a file; frame 0 is the world.
 class FrameTree {
  public:
   FrameTree();

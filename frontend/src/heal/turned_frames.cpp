@@ -19,10 +19,7 @@ bool keeps_axes(const Mat3& linear) {
   return true;
 }
 
-bool is_invertible(const Affine& map) {
-  const Mat3 inverse = csgcore::inverse(map.linear);
-  return map.finite() && Affine{inverse, map.translation}.finite();
-}
+bool is_invertible(const Affine& map) { return map.finite() && inverse_of(map).finite(); }
 
 std::array<double, 12> entries_of(const Affine& map) {
   std::array<double, 12> result{};

@@ -139,9 +139,7 @@ Box tight_box(std::span<const Primitive> primitives, const csgcore::CsgTree& sol
     if (is_new) used.push_back(index);
     return entry->second;
   });
-  Affine to_frame;
-  to_frame.linear = csgcore::inverse(frame_to_world.linear);
-  to_frame.translation = -(to_frame.linear * frame_to_world.translation);
+  const Affine to_frame = inverse_of(frame_to_world);
   std::vector<csgcore::CanonicalPrimitive> in_frame;
   in_frame.reserve(used.size());
   for (const uint32_t index : used) {

@@ -128,8 +128,8 @@ std::optional<SimplePolygons> united_plan(const TriangleSet& solid, Triangles tr
   return united(std::span(&figure, 1));
 }
 
-/// Removes the holes and specks that rounding has left between groups of triangles, which are
-/// thinner than this share of the size.
+/// Removes the holes and specks that rounding has left between triangles, which are thinner than
+/// this share of the size.
 void remove_cracks(SimplePolygons& polygons) {
   constexpr double kThinnest = 0x1p-24;
   const Rectangle box = bounds_of(polygons);

@@ -56,6 +56,16 @@ std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, std::span<const
   return result;
 }
 
+std::vector<uint32_t> primitives_of(std::span<const CsgToken> tokens) {
+  std::vector<uint32_t> result;
+  for (const CsgToken& token : tokens) {
+    if (token.is_primitive) result.push_back(token.value);
+  }
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 bool is_union(const csgcore::CsgTree& tree) {
   return std::ranges::all_of(tree.tokens(), [](const CsgToken& token) {
     return token.is_primitive || token.op == Op::kUnion;

@@ -35,6 +35,9 @@ class CsgSubtrees {
 std::vector<csgcore::Box> subtree_boxes(std::span<const csgcore::CsgToken> tokens,
                                         std::span<const csgcore::Box> boxes);
 
+/// Returns the primitives that the tokens name, each once, ascending.
+std::vector<uint32_t> primitives_of(std::span<const csgcore::CsgToken> tokens);
+
 /// Returns whether the tree has no operation but unions.
 bool is_union(const csgcore::CsgTree& tree);
 

@@ -88,9 +88,7 @@ LoweredSubtree lower_figures(SubtreeEvaluation& evaluation, Plate plate, uint32_
 }
 
 void thicken_plate(Primitive& part, const Affine& frame_to_world) {
-  Affine to_frame;
-  to_frame.linear = csgcore::inverse(frame_to_world.linear);
-  to_frame.translation = -(to_frame.linear * frame_to_world.translation);
+  const Affine to_frame = inverse_of(frame_to_world);
   Affine stretched;
   stretched.linear[2][2] = kSubtractedPlateStretch;
   part.local_to_world =
