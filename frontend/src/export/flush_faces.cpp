@@ -118,12 +118,12 @@ class Planes {
 FlushFaces::FlushFaces(std::span<const TriangleSet> operands,
                        std::span<const uint32_t> candidates) {
   const Planes planes(operands, candidates);
-  constexpr uint32_t kNone = 0xFFFFFFFFu, kSeveral = 0xFFFFFFFEu;
+  constexpr uint32_t kNoOperand = 0xFFFFFFFFu, kSeveral = 0xFFFFFFFEu;
   std::vector<uint32_t> operand_of;  // by plane: the one whose faces it holds, or kSeveral
   planes.visit([&](uint32_t operand, uint32_t plane) {
-    if (plane >= operand_of.size()) operand_of.resize(plane + 1, kNone);
+    if (plane >= operand_of.size()) operand_of.resize(plane + 1, kNoOperand);
     uint32_t& known = operand_of[plane];
-    if (known != operand) known = known == kNone ? operand : kSeveral;
+    if (known != operand) known = known == kNoOperand ? operand : kSeveral;
   });
   if (std::ranges::find(operand_of, kSeveral) == operand_of.end()) return;
   planes_of_.resize(operands.size());
