@@ -179,10 +179,8 @@ json measure(const std::string& file, int repetitions) {
     Image image;
     json times = json::array();
     for (int i = 0; i < repetitions; ++i) {
-      times.push_back(timing::time_ms([&] {
-        csgcore::draw(solid, fine, frame, options, image, stats);
-        csgcore::finish_studio(solid, fine, settings, options, image, stats);
-      }));
+      times.push_back(timing::time_ms(
+          [&] { csgcore::draw_studio(solid, fine, frame, settings, options, image, stats); }));
     }
     // Lines are no light.
     StudioSettings judged = settings;

@@ -17,10 +17,19 @@
 
 namespace csgcore {
 
+struct FrameRays;
+
 /// Points on a solid's surface, for example those that a picture shows.
 struct SurfacePoints {
   std::span<const Vec3> position;  // world space
   std::span<const Vec3> normal;    // by point: unit, world space, outward of the solid
+};
+
+/// What a point gets of the light from directions: each counts by its cosine with the point's
+/// normal, if that is above 0.
+struct LightSum {
+  float all = 0;   // of all directions that were asked
+  float open = 0;  // of those along which the point sees infinitely far
 };
 
 /// Answers for the points of one solid.
@@ -30,12 +39,16 @@ class LightTracer {
   explicit LightTracer(const Solid& solid);
   ~LightTracer();
 
-  /// Sets lit[i] to 1 if point i sees infinitely far along `to_light` (unit, world space), or else
-  /// to 0. A point that faces away from the light is not lit. Crossings of the
+  /// Adds a direction, `to_light` (unit, world space), to the points' sums. Crossings of the
   /// solid's boundary that lie less than two thickness tolerances above the point, along its
   /// normal, or less than the rounding of its coordinates, are taken for the face that the point
   /// lies on: beyond that the answer is exact. May be called by several threads at once. A stop
   /// request ends it early, with undefined answers.
+  void add_light(const SurfacePoints& points, const Vec3& to_light, std::span<LightSum> sums,
+                 const std::stop_token& stop = {}) const;
+
+  /// Sets lit[i] to 1 if point i faces the light and sees infinitely far along `to_light`, or else
+  /// to 0.
   void find_lit(const SurfacePoints& points, const Vec3& to_light, std::span<uint8_t> lit,
                 const std::stop_token& stop = {}) const;
 
@@ -44,10 +57,12 @@ class LightTracer {
                      const std::stop_token& stop = {}) const;
 
  private:
-  class Rays;
-  void look(const View& view, const SurfacePoints& points, std::span<const uint32_t> facing,
-            std::span<uint8_t> lit, const std::stop_token& stop) const;
+  struct Rays;
   struct Memory;
+  class Lease;
+  class Visitor;
+  void look(const FrameRays& frame, Rays& rays, std::span<LightSum> sums,
+            const std::stop_token& stop) const;
   const Solid& solid_;
   const std::unique_ptr<Memory> memory_;
 };

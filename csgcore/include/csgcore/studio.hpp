@@ -36,7 +36,14 @@ struct StudioSettings {
 /// `image` was drawn with Shading::kStudio, one ray a pixel and Boundary::kFirst. What has an alpha
 /// below 1 keeps its light, and gets lines. `options` may name no area; its samples do not
 /// count. Adds to `stats`.
+/// A picture that the CPU tracer draws by tiles is better drawn by draw_studio().
 void finish_studio(const Solid& solid, const View& view, const StudioSettings& settings,
                    const TraceOptions& options, Image& image, TraceStats& stats);
+
+/// Draws such a picture (Boundary::kFirst, one ray a pixel, no area), and finishes it, by the same
+/// rays. Overwrites `stats`.
+void draw_studio(const Solid& solid, const View& view, const FrameSettings& frame,
+                 const StudioSettings& settings, const TraceOptions& options, Image& image,
+                 TraceStats& stats);
 
 }  // namespace csgcore

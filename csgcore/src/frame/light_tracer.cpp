@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "rays/frame_rays.hpp"
@@ -27,7 +29,7 @@ constexpr double kLeastSize = 1e-9;
 constexpr double kCoordinateSteps = 0x1p-50;
 
 /// Returns how far above a point, along its normal, crossings are of the point's own face.
-double own_face(const Box& bounds) {
+double own_face_height(const Box& bounds) {
   const Vec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
   return 2 * thickness_tolerance(bounds) + kCoordinateSteps * std::max({reach.x, reach.y, reach.z});
 }
@@ -54,75 +56,51 @@ void set_pixels(double width, double height, double least, size_t count, View& v
   view.half_height = 0.5 * pixel * view.height_px;
 }
 
-/// Returns an orthographic view along −to_light of the points' rectangle, with about one pixel a
-/// point.
-View light_view(const SurfacePoints& points, std::span<const uint32_t> facing,
-                const Vec3& to_light) {
-  View view;
-  view.projection = Projection::kOrthographic;
-  view.forward = -to_light;
-  set_axes(view);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low(kInfinity), high(-kInfinity);
-  for (const uint32_t point : facing) {
-    const Vec3& p = points.position[point];
-    const Vec3 seen(glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward));
-    low = glm::min(low, seen);
-    high = glm::max(high, seen);
-  }
-  const Vec3 center = 0.5 * (low + high);
-  view.eye = center.x * view.right + center.y * view.up + center.z * view.forward;
-  // Where the points lie in a line, or are one, the rectangle has some width all the same.
-  const double width = high.x - low.x, height = high.y - low.y;
-  const double least = std::max({kLeastWidth * (width + height), kLeastSize * glm::length(center),
-                                 std::numeric_limits<double>::min()});
-  set_pixels(width, height, least, facing.size(), view);
-  return view;
-}
+/// A ray of one view, from the light to a point.
+struct LightRay {
+  double u, v;         // where it goes through the view's plane, from the middle
+  double least_depth;  // along it, from the pivot on: what lies before is the point's own face, or
+                       // shades the point
+  uint32_t point;
+  float weight;  // what the point's sum gets if the light reaches it
+};
 
 }  // namespace
 
-struct LightTracer::Memory {
-  std::shared_ptr<TileTracer::Workspaces> tiles = std::make_shared<TileTracer::Workspaces>();
+/// The rays of one view, and the memory of sorting them by the pixels that they go through.
+struct LightTracer::Rays {
+  std::vector<LightRay> unsorted;
+  std::vector<uint32_t> pixel_of;  // by ray in `unsorted`
+  std::vector<LightRay> sorted;
+  std::vector<uint32_t> first;  // by pixel: the place of its first ray in `sorted`; and the end
+
+  void sort_by_pixels(const View& view) {
+    const double per_unit = view.height_px / (2 * view.half_height);
+    const double last_x = view.width_px - 1.0, last_y = view.height_px - 1.0;
+    const auto place = [](double at, double last) {
+      return static_cast<uint32_t>(std::min(std::max(at, 0.0), last));
+    };
+    // The number of a pixel's rays is counted two places behind the pixel's. The sum up to one
+    // place behind is then where its first ray goes, and at last where the next pixel's first is.
+    first.assign(size_t{view.width_px} * view.height_px + 2, 0);
+    pixel_of.resize(unsorted.size());
+    for (size_t i = 0; i < unsorted.size(); ++i) {
+      const uint32_t y = place(0.5 * view.height_px - unsorted[i].v * per_unit, last_y);
+      const uint32_t x = place(0.5 * view.width_px + unsorted[i].u * per_unit, last_x);
+      pixel_of[i] = y * view.width_px + x;
+      ++first[pixel_of[i] + 2];
+    }
+    for (size_t i = 2; i < first.size(); ++i) first[i] += first[i - 1];
+    sorted.resize(unsorted.size());
+    for (size_t i = 0; i < unsorted.size(); ++i) sorted[first[pixel_of[i] + 1]++] = unsorted[i];
+  }
 };
 
-LightTracer::LightTracer(const Solid& solid) : solid_(solid), memory_(std::make_unique<Memory>()) {}
-LightTracer::~LightTracer() = default;
-
-/// The rays of one direction, sorted by the pixels of its view that they go through.
-class LightTracer::Rays final : public TileVisitor {
+/// Answers for rays, tile by tile.
+class LightTracer::Visitor final : public TileVisitor {
  public:
-  Rays(const FrameRays& frame, const SurfacePoints& points, std::span<const uint32_t> facing,
-       double tolerance, std::span<uint8_t> lit)
-      : frame_(frame), lit_(lit), first_(size_t{frame.view.width_px} * frame.view.height_px + 1) {
-    const View& view = frame.view;
-    std::vector<Ray> rays;
-    std::vector<uint32_t> pixel_of;
-    rays.reserve(facing.size());
-    pixel_of.reserve(facing.size());
-    for (const uint32_t point : facing) {
-      const Vec3& position = points.position[point];
-      const Vec3 from_eye = position - view.eye;
-      double u = glm::dot(from_eye, view.right), v = glm::dot(from_eye, view.up);
-      Vec3 direction = view.forward;
-      if (view.projection == Projection::kPerspective) {
-        const double s = glm::dot(from_eye, view.forward);
-        u /= s;
-        v /= s;
-        direction += u * view.right + v * view.up;
-      }
-      const double cosine = -glm::dot(points.normal[point], direction);
-      const Ray ray{u, v, glm::dot(position - frame.pivot, view.forward) - tolerance / cosine,
-                    point};
-      rays.push_back(ray);
-      pixel_of.push_back(pixel_at(ray.u, ray.v));
-      ++first_[pixel_of.back() + 1];
-    }
-    for (size_t pixel = 1; pixel < first_.size(); ++pixel) first_[pixel] += first_[pixel - 1];
-    sorted_.resize(rays.size());
-    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-    for (size_t i = 0; i < rays.size(); ++i) sorted_[next[pixel_of[i]]++] = rays[i];
-  }
+  Visitor(const FrameRays& frame, const Rays& rays, std::span<LightSum> sums)
+      : frame_(frame), rays_(rays), sums_(sums) {}
 
   bool wants(const Tile& tile) const override {
     for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
@@ -132,13 +110,13 @@ class LightTracer::Rays final : public TileVisitor {
   }
 
   void visit_empty(const Tile& tile) override {
-    for_each_ray(tile, [&](const Ray& ray) { lit_[ray.point] = 1; });
+    for_each_ray(tile, [&](const LightRay& ray) { light(ray); });
   }
 
   void visit(const Tile& tile, TileRays& rays) override {
-    Ray packet[kPacketRays];
+    LightRay packet[kPacketRays];
     uint32_t count = 0;
-    for_each_ray(tile, [&](const Ray& ray) {
+    for_each_ray(tile, [&](const LightRay& ray) {
       packet[count++] = ray;
       if (count < kPacketRays) return;
       trace({packet, count}, rays);
@@ -148,40 +126,25 @@ class LightTracer::Rays final : public TileVisitor {
   }
 
  private:
-  struct Ray {
-    double u, v;         // where it goes through the view's plane, from the middle
-    double least_depth;  // along it, from the pivot on: what lies before is the point's own face,
-                         // or shades the point
-    uint32_t point;
-  };
+  void light(const LightRay& ray) { sums_[ray.point].open += ray.weight; }
 
-  uint32_t pixel_at(double u, double v) const {
-    const View& view = frame_.view;
-    const double per_unit = view.height_px / (2 * view.half_height);
-    const auto place = [](double at, uint32_t count) {
-      return static_cast<uint32_t>(std::clamp(std::floor(at), 0.0, count - 1.0));
-    };
-    return place(0.5 * view.height_px - v * per_unit, view.height_px) * view.width_px +
-           place(0.5 * view.width_px + u * per_unit, view.width_px);
-  }
-
-  /// Returns the place in sorted_ of the first ray of a pixel, or of what follows the row's last.
+  /// Returns the place of the first ray of a pixel, or of what follows the row's last.
   uint32_t first_of(uint32_t x, uint32_t y) const {
-    return first_[size_t{y} * frame_.view.width_px + x];
+    return rays_.first[size_t{y} * frame_.view.width_px + x];
   }
 
   template <typename Visit>
   void for_each_ray(const Tile& tile, const Visit& visit) const {
     for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
       const uint32_t end = first_of(tile.x + tile.width, y);
-      for (uint32_t i = first_of(tile.x, y); i < end; ++i) visit(sorted_[i]);
+      for (uint32_t i = first_of(tile.x, y); i < end; ++i) visit(rays_.sorted[i]);
     }
   }
 
-  void trace(std::span<const Ray> packet, TileRays& rays) {
+  void trace(std::span<const LightRay> packet, TileRays& rays) {
     PacketLaterals laterals{};
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-      const Ray& ray = packet[lane < packet.size() ? lane : 0];
+      const LightRay& ray = packet[lane < packet.size() ? lane : 0];
       laterals.u[lane] = ray.u;
       laterals.v[lane] = ray.v;
     }
@@ -201,25 +164,102 @@ class LightTracer::Rays final : public TileVisitor {
     rays.trace(ray_packet, lanes, &limits, hits);
     for (uint32_t lane = 0; lane < packet.size(); ++lane) {
       const bool is_hit = (hits.hits >> lane & 1) != 0;
-      lit_[packet[lane].point] = !is_hit || hits.t[lane] >= limits.last_t[lane];
+      if (!is_hit || hits.t[lane] >= limits.last_t[lane]) light(packet[lane]);
     }
   }
 
   const FrameRays& frame_;
-  const std::span<uint8_t> lit_;
-  std::vector<uint32_t> first_;  // by pixel: the place of its first ray in sorted_
-  std::vector<Ray> sorted_;      // by pixels
+  const Rays& rays_;
+  const std::span<LightSum> sums_;
 };
+
+struct LightTracer::Memory {
+  std::shared_ptr<TileTracer::Workspaces> tiles = std::make_shared<TileTracer::Workspaces>();
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Rays>> free;
+};
+
+/// Holds working memory for as long as it lives.
+class LightTracer::Lease {
+ public:
+  explicit Lease(Memory& memory) : memory_(memory) {
+    const std::lock_guard lock(memory_.mutex);
+    if (memory_.free.empty()) {
+      rays_ = std::make_unique<Rays>();
+    } else {
+      rays_ = std::move(memory_.free.back());
+      memory_.free.pop_back();
+    }
+  }
+  ~Lease() {
+    const std::lock_guard lock(memory_.mutex);
+    memory_.free.push_back(std::move(rays_));
+  }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  Rays& operator*() const { return *rays_; }
+
+ private:
+  Memory& memory_;
+  std::unique_ptr<Rays> rays_;
+};
+
+LightTracer::LightTracer(const Solid& solid) : solid_(solid), memory_(std::make_unique<Memory>()) {}
+LightTracer::~LightTracer() = default;
+
+void LightTracer::add_light(const SurfacePoints& points, const Vec3& to_light,
+                            std::span<LightSum> sums, const std::stop_token& stop) const {
+  if (stop.stop_requested()) return;
+  const Lease lease(*memory_);
+  Rays& rays = *lease;
+  rays.unsorted.clear();
+  View view;
+  view.projection = Projection::kOrthographic;
+  view.forward = -to_light;
+  set_axes(view);
+  // What is far from the origin is seen from within its box, so that little is rounded.
+  const Box& bounds = solid_.bounds();
+  const Vec3 center = bounds.center();
+  const double own_face = own_face_height(bounds);
+  Vec3 low(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (uint32_t i = 0; i < points.normal.size(); ++i) {
+    const double cosine = glm::dot(points.normal[i], to_light);
+    if (!(cosine > 0)) continue;
+    const Vec3 offset = points.position[i] - center;
+    const Vec3 seen(glm::dot(offset, view.right), glm::dot(offset, view.up),
+                    glm::dot(offset, view.forward));
+    low = glm::min(low, seen);
+    high = glm::max(high, seen);
+    const auto weight = static_cast<float>(cosine);
+    sums[i].all += weight;
+    rays.unsorted.push_back({seen.x, seen.y, seen.z - own_face / cosine, i, weight});
+  }
+  if (rays.unsorted.empty()) return;
+  const Vec3 middle = 0.5 * (low + high);
+  view.eye = center + middle.x * view.right + middle.y * view.up + middle.z * view.forward;
+  // Where the points lie in a line, or are one, the rectangle has some width all the same.
+  const double width = high.x - low.x, height = high.y - low.y;
+  const double least = std::max({kLeastWidth * (width + height), kLeastSize * glm::length(view.eye),
+                                 std::numeric_limits<double>::min()});
+  set_pixels(width, height, least, rays.unsorted.size(), view);
+  const FrameRays frame = frame_rays(view, bounds);
+  const Vec3 from_eye = center - view.eye;
+  const double u = glm::dot(from_eye, view.right), v = glm::dot(from_eye, view.up);
+  const double depth = glm::dot(center - frame.pivot, view.forward);
+  for (LightRay& ray : rays.unsorted) {
+    ray.u += u;
+    ray.v += v;
+    ray.least_depth += depth;
+  }
+  look(frame, rays, sums, stop);
+}
 
 void LightTracer::find_lit(const SurfacePoints& points, const Vec3& to_light,
                            std::span<uint8_t> lit, const std::stop_token& stop) const {
-  std::vector<uint32_t> facing;
-  for (uint32_t i = 0; i < points.normal.size(); ++i) {
-    lit[i] = 0;
-    if (glm::dot(points.normal[i], to_light) > 0) facing.push_back(i);
-  }
-  if (facing.empty()) return;
-  look(light_view(points, facing, to_light), points, facing, lit, stop);
+  std::vector<LightSum> sums(lit.size());
+  add_light(points, to_light, sums, stop);
+  std::ranges::transform(sums, lit.begin(), [](const LightSum& sum) { return sum.open > 0; });
 }
 
 void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
@@ -227,13 +267,12 @@ void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
   std::vector<uint32_t> facing;
   Vec3 toward(0.0);
   for (uint32_t i = 0; i < points.normal.size(); ++i) {
-    lit[i] = 0;
     const Vec3 from_light = points.position[i] - light;
     if (!(glm::dot(points.normal[i], from_light) < 0)) continue;
     facing.push_back(i);
     toward += glm::normalize(from_light);
   }
-  if (facing.empty()) return;
+  std::vector<LightSum> sums(lit.size());
   View view;
   view.eye = light;
   view.forward = glm::length(toward) > 0 ? glm::normalize(toward) : Vec3{0, 0, 1};
@@ -247,33 +286,45 @@ void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
         axes, {}, [&](const Vec3& axis) { return glm::dot(axis, from_light); });
     seen[side - axes].push_back(point);
   }
+  const double own_face = own_face_height(solid_.bounds());
   for (size_t side = 0; side < std::size(axes); ++side) {
     if (seen[side].empty()) continue;
+    const Lease lease(*memory_);
+    Rays& rays = *lease;
+    rays.unsorted.clear();
     view.forward = axes[side];
     set_axes(view);
     double width = 0, height = 0;
     for (const uint32_t point : seen[side]) {
       const Vec3 from_light = points.position[point] - light;
       const double s = glm::dot(from_light, view.forward);
-      width = std::max(width, 2 * std::abs(glm::dot(from_light, view.right)) / s);
-      height = std::max(height, 2 * std::abs(glm::dot(from_light, view.up)) / s);
+      const double u = glm::dot(from_light, view.right) / s, v = glm::dot(from_light, view.up) / s;
+      width = std::max(width, 2 * std::abs(u));
+      height = std::max(height, 2 * std::abs(v));
+      const Vec3 direction = view.forward + u * view.right + v * view.up;
+      rays.unsorted.push_back(
+          {u, v, own_face / glm::dot(points.normal[point], direction), point, 1});
     }
     set_pixels(width, height, kLeastSize, seen[side].size(), view);
-    look(view, points, seen[side], lit, stop);
+    const FrameRays frame = frame_rays(view, solid_.bounds());
+    for (LightRay& ray : rays.unsorted) {
+      ray.least_depth += glm::dot(points.position[ray.point] - frame.pivot, view.forward);
+    }
+    look(frame, rays, sums, stop);
   }
+  std::ranges::transform(sums, lit.begin(), [](const LightSum& sum) { return sum.open > 0; });
 }
 
-/// Answers for points that face the view's eye, and that lie within its picture.
-void LightTracer::look(const View& view, const SurfacePoints& points,
-                       std::span<const uint32_t> facing, std::span<uint8_t> lit,
+/// Answers for rays that lie within the view's picture.
+void LightTracer::look(const FrameRays& frame, Rays& rays, std::span<LightSum> sums,
                        const std::stop_token& stop) const {
-  const FrameRays frame = frame_rays(view, solid_.bounds());
   TraceParameters parameters;
   parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());
   parameters.stop = stop;
   TileTracer tracer(solid_, frame, parameters, TileRules{.centers_only = false}, memory_->tiles);
-  Rays rays(frame, points, facing, own_face(solid_.bounds()), lit);
-  tracer.visit({0, 0, view.width_px, view.height_px}, rays);
+  rays.sort_by_pixels(frame.view);
+  Visitor visitor(frame, rays, sums);
+  tracer.visit({0, 0, frame.view.width_px, frame.view.height_px}, visitor);
 }
 
 }  // namespace csgcore

@@ -6,6 +6,8 @@
 namespace csgcore {
 
 class Solid;
+struct FrameSettings;
+struct Image;
 struct TraceOptions;
 struct TraceStats;
 struct View;
@@ -14,5 +16,9 @@ struct View;
 /// Overwrites `stats`.
 void trace(const Solid& solid, const View& view, const TraceOptions& options, SparseHits& hits,
            TraceStats& stats);
+
+/// Does that and draws the picture (tracer.hpp), of one ray a pixel, by the same rays.
+void draw(const Solid& solid, const View& view, const FrameSettings& settings,
+          const TraceOptions& options, Image& image, SparseHits& hits, TraceStats& stats);
 
 }  // namespace csgcore

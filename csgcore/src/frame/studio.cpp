@@ -82,17 +82,15 @@ Vec3 key_direction(const View& view, const Vec3& key, uint32_t i, uint32_t n) {
 
 /// Sums over the directions that a point has asked, weighted by its normal's cosine.
 struct Light {
-  float sky = 0, open_sky = 0;
-  float key = 0, open_key = 0;
-  void add(const Light& other, float weight) {
-    sky += weight * other.sky;
-    open_sky += weight * other.open_sky;
-    key += weight * other.key;
-    open_key += weight * other.open_key;
-  }
+  LightSum sky, key;
 };
 
-float share(float part, float all) { return all > 0 ? part / all : 1; }
+void add(const LightSum& other, float weight, LightSum& sum) {
+  sum.all += weight * other.all;
+  sum.open += weight * other.open;
+}
+
+float open_share(const LightSum& sum) { return sum.all > 0 ? sum.open / sum.all : 1; }
 
 template <typename Visit>
 void for_each_group(Groups groups, const Visit& visit) {
@@ -104,19 +102,16 @@ void for_each_group(Groups groups, const Visit& visit) {
 class Studio {
  public:
   Studio(const Solid& solid, const View& view, const StudioSettings& settings,
-         const TraceOptions& options, Image& image)
+         const TraceOptions& options, const SparseHits& hits, Image& image)
       : solid_(solid),
         view_(view),
         light_(studio_light(view)),
         settings_(settings),
         options_(options),
+        hits_(hits),
         image_(image) {}
 
-  void finish(TraceStats& stats) {
-    TraceStats of_hits;
-    trace(solid_, view_, options_, hits_, of_hits);
-    stats.rays += of_hits.rays;
-    stats.intersections += of_hits.intersections;
+  void finish() {
     const bool has_light = settings_.occlusion > 0 || settings_.shadows > 0;
     if (has_light) {
       collect_points();
@@ -327,6 +322,7 @@ class Studio {
     const bool has_sky = settings_.occlusion > 0, has_key = settings_.shadows > 0;
     tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
       std::vector<Place> places;
+      places.reserve(sums_.size() / kGroups);
       for_each_place([&](const Place& place) {
         if (asks(place, group)) places.push_back(place);
       });
@@ -345,7 +341,7 @@ class Studio {
     std::vector<Place> places;
     for_each_place([&](const Place& place) {
       const Light& light = lights_[point_at(place)];
-      if (light.open_key > 0 && light.open_key < light.key) places.push_back(place);
+      if (light.key.open > 0 && light.key.open < light.key.all) places.push_back(place);
     });
     std::array<std::vector<Light>, kGroups> answers;
     tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
@@ -356,13 +352,11 @@ class Studio {
     });
     std::array<size_t, kGroups> next{};
     for (const Place& place : places) {
-      Light& light = lights_[point_at(place)];
-      light.key = light.open_key = 0;
+      LightSum& key = lights_[point_at(place)].key;
+      key = {};
       for (uint32_t group = 0; group < kGroups; ++group) {
-        const Light& own =
-            asks(place, group) ? sum_of(place, group) : answers[group][next[group]++];
-        light.key += own.key;
-        light.open_key += own.open_key;
+        add(asks(place, group) ? sum_of(place, group).key : answers[group][next[group]++].key, 1,
+            key);
       }
     }
   }
@@ -371,29 +365,25 @@ class Studio {
   std::vector<Light> ask_group(const LightTracer& tracer, std::span<const Place> places,
                                uint32_t group, bool has_sky, bool has_key) const {
     std::vector<Vec3> positions, normals;
+    positions.reserve(places.size());
+    normals.reserve(places.size());
     for (const auto& [row, i] : places) {
       const uint32_t begin = rows_[row].first_pixel[i], end = rows_[row].first_pixel[i + 1];
       const uint32_t pixel = rows_[row].pixels[begin + group % (end - begin)];
       positions.push_back(hits_.position[pixel]);
       normals.push_back(hits_.normal[pixel]);
     }
-    std::vector<Light> lights(places.size());
-    std::vector<uint8_t> lit(places.size());
-    const auto ask = [&](const Vec3& direction, float Light::*all, float Light::*open) {
-      if (options_.stop.stop_requested()) return;
-      tracer.find_lit({positions, normals}, direction, lit, options_.stop);
-      for (size_t i = 0; i < lights.size(); ++i) {
-        const auto cosine = static_cast<float>(std::max(0.0, glm::dot(normals[i], direction)));
-        lights[i].*all += cosine;
-        lights[i].*open += lit[i] != 0 ? cosine : 0;
-      }
-    };
+    std::vector<LightSum> sky(places.size()), key(places.size());
     for (uint32_t i = group; has_sky && i < settings_.directions; i += kGroups) {
-      ask(sky_direction(i, settings_.directions), &Light::sky, &Light::open_sky);
+      tracer.add_light({positions, normals}, sky_direction(i, settings_.directions), sky,
+                       options_.stop);
     }
     for (uint32_t i = group; has_key && i < key_directions(); i += kGroups) {
-      ask(key_direction(view_, light_.key, i, key_directions()), &Light::key, &Light::open_key);
+      tracer.add_light({positions, normals}, key_direction(view_, light_.key, i, key_directions()),
+                       key, options_.stop);
     }
+    std::vector<Light> lights(places.size());
+    for (size_t i = 0; i < lights.size(); ++i) lights[i] = {sky[i], key[i]};
     return lights;
   }
 
@@ -407,7 +397,9 @@ class Studio {
     for (const uint32_t point : points) {
       uint32_t sum = sums_before_[point];
       for_each_group(asked_[point], [&](uint32_t group) {
-        light.add(sums_[sum++], 1 / static_cast<float>(answers[group]));
+        const float weight = 1 / static_cast<float>(answers[group]);
+        add(sums_[sum].sky, weight, light.sky);
+        add(sums_[sum++].key, weight, light.key);
       });
     }
     return light;
@@ -435,8 +427,8 @@ class Studio {
   double light_at(size_t pixel) const {
     if (point_of_[pixel] == kNoPoint) return 1;
     const Light& light = lights_[point_of_[pixel]];
-    const double open = 1 - settings_.occlusion * (1 - share(light.open_sky, light.sky));
-    const double key = 1 - settings_.shadows * (1 - share(light.open_key, light.key));
+    const double open = 1 - settings_.occlusion * (1 - open_share(light.sky));
+    const double key = 1 - settings_.shadows * (1 - open_share(light.key));
     const Vec3& normal = hits_.normal[pixel];
     return studio_shade(light_, normal, open, key) / studio_shade(light_, normal, 1, 1);
   }
@@ -475,8 +467,8 @@ class Studio {
   const StudioLight light_;
   const StudioSettings& settings_;
   const TraceOptions& options_;
+  const SparseHits& hits_;
   Image& image_;
-  SparseHits hits_;
   uint32_t columns_ = 0;  // of blocks
   std::vector<Row> rows_;
   std::vector<uint32_t> point_of_;  // by pixel; kNoPoint: it shows none that light falls on
@@ -487,15 +479,35 @@ class Studio {
   std::vector<Light> sums_;  // of each point in turn, by the groups that it asks
 };
 
+void finish(const Solid& solid, const View& view, const StudioSettings& settings,
+            const TraceOptions& options, const SparseHits& hits, Image& image, TraceStats& stats) {
+  const auto start = std::chrono::steady_clock::now();
+  with_threads(options.threads,
+               [&] { Studio(solid, view, settings, options, hits, image).finish(); });
+  stats.trace_ms +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 void finish_studio(const Solid& solid, const View& view, const StudioSettings& settings,
                    const TraceOptions& options, Image& image, TraceStats& stats) {
-  const auto start = std::chrono::steady_clock::now();
-  with_threads(options.threads,
-               [&] { Studio(solid, view, settings, options, image).finish(stats); });
-  stats.trace_ms +=
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  SparseHits hits;
+  TraceStats of_hits;
+  trace(solid, view, options, hits, of_hits);
+  stats.rays += of_hits.rays;
+  stats.intersections += of_hits.intersections;
+  stats.trace_ms += of_hits.cull_ms + of_hits.trace_ms;
+  finish(solid, view, settings, options, hits, image, stats);
+}
+
+void draw_studio(const Solid& solid, const View& view, const FrameSettings& frame,
+                 const StudioSettings& settings, const TraceOptions& options, Image& image,
+                 TraceStats& stats) {
+  SparseHits hits;
+  draw(solid, view, frame, options, image, hits, stats);
+  if (options.stop.stop_requested()) return;
+  finish(solid, view, settings, options, hits, image, stats);
 }
 
 }  // namespace csgcore

@@ -56,6 +56,22 @@ class PixelVisitor final : public TileVisitor {
   HitSink& sink_;
 };
 
+/// Passes hits on to two others. The second one needs no misses.
+class TwoSinks final : public HitSink {
+ public:
+  TwoSinks(HitSink& all, HitSink& of_hits) : all_(all), of_hits_(of_hits) {}
+  void clear(const Tile& tile) override { all_.clear(tile); }
+  void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+             const PacketHits& hits) override {
+    all_.store(block, rays, list, hits);
+    of_hits_.store(block, rays, list, hits);
+  }
+
+ private:
+  HitSink& all_;
+  HitSink& of_hits_;
+};
+
 /// Draws one frame of a solid.
 class Frame {
  public:
@@ -74,6 +90,13 @@ class Frame {
 
   /// Traces by a kd-tree, or by tiles if `subdivision` is null.
   void trace(const Subdivision* subdivision, HitSink& sink) { trace(subdivision, area_, sink); }
+
+  void draw(const FrameSettings& settings, Image& image, SparseHits& hits) {
+    ImageSink of_image(rays_, settings, solid_.bounds(), image);
+    SparseSink of_hits(rays_, hits);
+    TwoSinks sink(of_image, of_hits);
+    trace(nullptr, sink);
+  }
 
   void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
     ImageSink sink(rays_, settings, solid_.bounds(), image);
@@ -184,6 +207,11 @@ void trace(const Solid& solid, const View& view, const TraceOptions& options, Sp
   Frame frame(solid, view, options, stats);
   SparseSink sink(frame.rays(), hits);
   frame.trace(nullptr, sink);
+}
+
+void draw(const Solid& solid, const View& view, const FrameSettings& settings,
+          const TraceOptions& options, Image& image, SparseHits& hits, TraceStats& stats) {
+  Frame(solid, view, options, stats).draw(settings, image, hits);
 }
 
 void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,

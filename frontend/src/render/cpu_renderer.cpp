@@ -54,6 +54,20 @@ class CpuRenderer final : public SolidRenderer {
     return image;
   }
 
+  Image draw_shadowed_model(const Solid& solid, const FrameSettings& frame,
+                            const csgcore::Box& light_box, const PictureRequest& request) override {
+    if (!draws_studio(request.settings) || uses_cells(request.settings)) {
+      return SolidRenderer::draw_shadowed_model(solid, frame, light_box, request);
+    }
+    note_renderer(request);
+    Image image;
+    TraceStats stats;
+    csgcore::draw_studio(solid, request.view, frame, request.settings.studio,
+                         trace_options(request.settings, Boundary::kFirst), image, stats);
+    add(stats, request.stats);
+    return image;
+  }
+
   bool draws_areas() const override { return true; }
 
   void draw_model_areas(const Solid& solid, const FrameSettings& frame,
@@ -144,6 +158,14 @@ void draw_shadows(const Solid& solid, const csgcore::Box& light_box, const Pictu
                                 options, image, stats);
   }
   add(stats, request.stats);
+}
+
+Image SolidRenderer::draw_shadowed_model(const Solid& solid, const FrameSettings& frame,
+                                         const csgcore::Box& light_box,
+                                         const PictureRequest& request) {
+  Image image = draw_model(solid, frame, request);
+  draw_shadows(solid, light_box, request, image);
+  return image;
 }
 
 std::unique_ptr<SolidRenderer> make_cpu_renderer() { return std::make_unique<CpuRenderer>(); }

@@ -160,8 +160,7 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
     fine = blank(view);
     fill_background(frame, fine);
   } else {
-    fine = renderer.draw_model(model_, frame, of_fine);
-    draw_shadows(model_, scene_box_, of_fine, fine);
+    fine = renderer.draw_shadowed_model(model_, frame, scene_box_, of_fine);
   }
   if (!composition.layers.empty()) {
     Compositor compositor(fine, fine.z, scene_box_.diagonal(), surfaces,

@@ -67,6 +67,13 @@ class SolidRenderer {
                                     const csgcore::FrameSettings& frame,
                                     const PictureRequest& request) = 0;
 
+  /// The surface with one ray a pixel and the shadows that draws_shadows() asks for. `light_box`:
+  /// of all that the picture shows.
+  virtual csgcore::Image draw_shadowed_model(const csgcore::Solid& solid,
+                                             const csgcore::FrameSettings& frame,
+                                             const csgcore::Box& light_box,
+                                             const PictureRequest& request);
+
   /// Whether draw_model_areas() can be asked for.
   virtual bool draws_areas() const { return false; }
   /// The surface of the model, within the areas alone: the rest of `image` stays.

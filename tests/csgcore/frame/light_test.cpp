@@ -205,6 +205,9 @@ Image studio_picture(const Solid& solid, const View& view, const StudioSettings&
   TraceStats stats;
   draw(solid, view, frame, options, image, stats);
   finish_studio(solid, view, settings, options, image, stats);
+  Image by_the_same_rays;
+  draw_studio(solid, view, frame, settings, options, by_the_same_rays, stats);
+  EXPECT_EQ(by_the_same_rays.rgb, image.rgb);
   return image;
 }
 
