@@ -60,8 +60,7 @@ frontend::RenderSettings settings_of(const PaintOrder& order, Step step) {
   frontend::RenderSettings settings = last_settings(order);
   if (order.is_moving) settings.samples = 1;
   if (!draws_studio(settings) || step == Step::kFinal) return settings;
-  settings.studio.directions = first_directions(order.design->scene);
-  settings.studio.shares_light = true;
+  settings.studio = first_light(order.design->scene, settings.studio);
   if (step == Step::kColors) {
     settings.samples = 1;
     settings.studio.shadows = settings.studio.occlusion = settings.studio.edges = 0;
@@ -73,12 +72,16 @@ bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCel
 
 }  // namespace
 
-uint32_t first_directions(const csgcore::Scene& scene) {
+csgcore::StudioSettings first_light(const csgcore::Scene& scene, csgcore::StudioSettings settings) {
   size_t triangles = 0;
   for (const csgcore::Primitive& primitive : scene.primitives) {
     if (const csgcore::TriangleMesh* mesh = primitive.mesh()) triangles += mesh->triangles().size();
   }
-  return triangles > kManyTriangles ? kFewMeshDirections : csgcore::kFewDirections;
+  const bool has_large_mesh = triangles > kManyTriangles;
+  settings.directions = has_large_mesh ? kFewMeshDirections : csgcore::kFewDirections;
+  settings.largest_noise = has_large_mesh ? 0 : csgcore::kFewDirectionsNoise;
+  settings.shares_light = true;
+  return settings;
 }
 
 bool show_the_same(const PaintOrder& a, const PaintOrder& b) {

@@ -84,10 +84,10 @@ struct Finding {
   Surface surface;
 };
 
-/// The directions that the studio's light of a scene's first picture has: fewer where rays go
+/// Returns the settings of a first picture in the studio's light: fewer directions where rays go
 /// through large meshes.
-uint32_t first_directions(const csgcore::Scene& scene);
-/// Those of its last picture.
+csgcore::StudioSettings first_light(const csgcore::Scene& scene, csgcore::StudioSettings settings);
+/// The directions of its last picture.
 constexpr uint32_t kLastDirections = 256;
 
 class Painter {

@@ -174,8 +174,12 @@ json measure(const std::string& file, int repetitions) {
   StudioSettings settings;
   settings.block_px = kBlock;
   for (const bool is_last : {false, true}) {
-    settings.directions = is_last ? window::kLastDirections : window::first_directions(scene);
-    settings.shares_light = !is_last;
+    if (is_last) {
+      settings.directions = window::kLastDirections;
+      settings.shares_light = false;
+    } else {
+      settings = window::first_light(scene, settings);
+    }
     Image image;
     json times = json::array();
     for (int i = 0; i < repetitions; ++i) {

@@ -213,7 +213,7 @@ TEST_F(PainterTest, LightsAStudioInSteps) {
   PaintOrder final = order, lit = order, colors = order;
   final.settings.samples = lit.settings.samples = frontend::kStudioSamples;
   final.settings.studio.shares_light = false;
-  lit.settings.studio.directions = csgcore::kFewDirections;
+  lit.settings.studio = first_light(order.design->scene, lit.settings.studio);
   colors.settings.studio = {0, 0, 0};
   for (const bool is_moving : {false, true}) {
     std::vector<Painting> steps;

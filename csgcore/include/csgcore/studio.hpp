@@ -10,8 +10,10 @@
 
 namespace csgcore {
 
-/// StudioSettings::directions of a first picture: fewer show in hollows.
+/// StudioSettings::directions and largest_noise of a first picture: fewer directions show in
+/// hollows.
 constexpr uint32_t kFewDirections = 144;
+constexpr double kFewDirectionsNoise = 0.045;
 
 /// What finish_studio() does.
 struct StudioSettings {
@@ -25,6 +27,10 @@ struct StudioSettings {
   /// Whether neighbouring pixels ask parts of them for each other, where the same face goes on:
   /// faster, but occlusion is smoothed over 3 × 3 blocks.
   bool shares_light = true;
+  /// Where light is shared: half of the directions are asked at first, and the others if the shares
+  /// of the sky that neighbours find let it be off by more than this share, as a mean of all
+  /// points. 0: all are asked at once.
+  double largest_noise = 0;
   /// Where the picture is made smaller afterwards: the side of the squares of pixels that become
   /// one, which share their light as far as they show the same face. At least 1.
   uint32_t block_px = 1;

@@ -40,6 +40,8 @@ constexpr uint32_t kReachBlocks = 1;
 /// then those between, which therefore can be dealt with at once.
 constexpr uint32_t kBandRows = 16;
 static_assert(kBandRows > 2 * kReachBlocks);
+/// So many rounds there are at most, each of as many directions of the sky.
+constexpr uint32_t kRounds = 2;
 /// One direction goes to the key light for so many of the whole sky: fewer where light is shared,
 /// since the neighbours' directions make shadows smooth there.
 constexpr uint32_t kPerKeyDirection = 4, kPerSharedKeyDirection = 9;
@@ -63,10 +65,11 @@ constexpr double kLargestRise = 0.3;
 /// What a line leaves of the colour below it.
 constexpr double kLineShade = 0.3;
 
-/// Returns direction i of n that are spread evenly over the sphere: a Fibonacci lattice.
-Vec3 sky_direction(uint32_t i, uint32_t n) {
+/// Returns direction i of n that are spread evenly over the sphere: a Fibonacci lattice. That of
+/// the next round is turned by half of its steps.
+Vec3 sky_direction(uint32_t i, uint32_t n, uint32_t round) {
   const double z = 1 - (2.0 * i + 1) / n;
-  const double turn = 2 * std::numbers::pi * (std::numbers::phi - 1) * i;
+  const double turn = 2 * std::numbers::pi * (std::numbers::phi - 1) * (i + 0.5 * round);
   const double radius = std::sqrt(1 - z * z);
   return {radius * std::cos(turn), radius * std::sin(turn), z};
 }
@@ -320,19 +323,43 @@ class Studio {
   void ask_for_light() {
     const LightTracer tracer(solid_);
     const bool has_sky = settings_.occlusion > 0, has_key = settings_.shadows > 0;
+    uint32_t round = 0;
+    do {
+      ask_all(tracer, has_sky ? std::optional(round) : std::nullopt, has_key && round == 0);
+    } while (++round < rounds() && noise() > settings_.largest_noise);
+    if (settings_.shares_light && has_key) sharpen_shadows(tracer);
+  }
+
+  uint32_t rounds() const {
+    return settings_.shares_light && settings_.largest_noise > 0 ? kRounds : 1;
+  }
+
+  /// Asks what ask_group() does, and finds what each point gets of all that was asked so far.
+  void ask_all(const LightTracer& tracer, std::optional<uint32_t> sky_round, bool has_key) {
     tbb::parallel_for(uint32_t{0}, kGroups, [&](uint32_t group) {
       std::vector<Place> places;
       places.reserve(sums_.size() / kGroups);
       for_each_place([&](const Place& place) {
         if (asks(place, group)) places.push_back(place);
       });
-      const std::vector<Light> lights = ask_group(tracer, places, group, has_sky, has_key);
-      for (size_t i = 0; i < places.size(); ++i) sum_of(places[i], group) = lights[i];
+      const std::vector<Light> lights = ask_group(tracer, places, group, sky_round, has_key);
+      for (size_t i = 0; i < places.size(); ++i) {
+        Light& sum = sum_of(places[i], group);
+        add(lights[i].sky, 1, sum.sky);
+        add(lights[i].key, 1, sum.key);
+      }
     });
+    noise_of_rows_.assign(rows_.size(), 0);
     for_each_point([&](uint32_t, uint32_t row, uint32_t i) {
-      lights_[rows_[row].first + i] = light_of(neighbours_of(rows_[row], i));
+      lights_[rows_[row].first + i] = light_of(neighbours_of(rows_[row], i), noise_of_rows_[row]);
     });
-    if (settings_.shares_light && has_key) sharpen_shadows(tracer);
+  }
+
+  /// Returns by how much the groups' answers let the shares of the sky be off, as a mean.
+  double noise() const {
+    double sum = 0;
+    for (const double of_row : noise_of_rows_) sum += of_row;
+    return lights_.empty() ? 0 : sum / static_cast<double>(lights_.size());
   }
 
   /// Asks all of the key light's directions at those points that some reach, and others do not:
@@ -348,7 +375,7 @@ class Studio {
       std::vector<Place> missing;
       std::ranges::copy_if(places, std::back_inserter(missing),
                            [&](const Place& place) { return !asks(place, group); });
-      answers[group] = ask_group(tracer, missing, group, false, true);
+      answers[group] = ask_group(tracer, missing, group, std::nullopt, true);
     });
     std::array<size_t, kGroups> next{};
     for (const Place& place : places) {
@@ -361,9 +388,11 @@ class Studio {
     }
   }
 
-  /// Returns what points see of the directions of a group.
+  /// Returns what points see of a group's directions: those of the sky in a round, if one is given,
+  /// and all those of the key light.
   std::vector<Light> ask_group(const LightTracer& tracer, std::span<const Place> places,
-                               uint32_t group, bool has_sky, bool has_key) const {
+                               uint32_t group, std::optional<uint32_t> sky_round,
+                               bool has_key) const {
     std::vector<Vec3> positions, normals;
     positions.reserve(places.size());
     normals.reserve(places.size());
@@ -374,34 +403,44 @@ class Studio {
       normals.push_back(hits_.normal[pixel]);
     }
     std::vector<LightSum> sky(places.size()), key(places.size());
-    for (uint32_t i = group; has_sky && i < settings_.directions; i += kGroups) {
-      tracer.add_light({positions, normals}, sky_direction(i, settings_.directions), sky,
+    const uint32_t directions = settings_.directions / rounds(), keys = key_directions();
+    for (uint32_t i = group; sky_round && i < directions; i += kGroups) {
+      tracer.add_light({positions, normals}, sky_direction(i, directions, *sky_round), sky,
                        options_.stop);
     }
-    for (uint32_t i = group; has_key && i < key_directions(); i += kGroups) {
-      tracer.add_light({positions, normals}, key_direction(view_, light_.key, i, key_directions()),
-                       key, options_.stop);
+    for (uint32_t i = group; has_key && i < keys; i += kGroups) {
+      tracer.add_light({positions, normals}, key_direction(view_, light_.key, i, keys), key,
+                       options_.stop);
     }
     std::vector<Light> lights(places.size());
     for (size_t i = 0; i < lights.size(); ++i) lights[i] = {sky[i], key[i]};
     return lights;
   }
 
-  /// Returns the light of all of these points, to which each group counts the same.
-  Light light_of(std::span<const uint32_t> points) const {
+  /// Returns the light of all of these points, to which each group counts the same. Adds to `noise`
+  /// the standard error of the share of the sky, if the groups were drawn at random.
+  Light light_of(std::span<const uint32_t> points, double& noise) const {
     std::array<uint32_t, kGroups> answers{};
     for (const uint32_t point : points) {
       for_each_group(asked_[point], [&](uint32_t group) { ++answers[group]; });
     }
     Light light;
+    std::array<LightSum, kGroups> skies{};
     for (const uint32_t point : points) {
       uint32_t sum = sums_before_[point];
       for_each_group(asked_[point], [&](uint32_t group) {
         const float weight = 1 / static_cast<float>(answers[group]);
-        add(sums_[sum].sky, weight, light.sky);
+        add(sums_[sum].sky, weight, skies[group]);
         add(sums_[sum++].key, weight, light.key);
       });
     }
+    for (const LightSum& sky : skies) add(sky, 1, light.sky);
+    float squares = 0;
+    for (const LightSum& sky : skies) {
+      const float difference = sky.open - open_share(light.sky) * sky.all;
+      squares += difference * difference;
+    }
+    if (light.sky.all > 0) noise += std::sqrt(squares) / light.sky.all;
     return light;
   }
 
@@ -477,6 +516,7 @@ class Studio {
   std::vector<uint32_t> sums_before_;
   std::vector<Light> lights_;
   std::vector<Light> sums_;  // of each point in turn, by the groups that it asks
+  std::vector<double> noise_of_rows_;
 };
 
 void finish(const Solid& solid, const View& view, const StudioSettings& settings,

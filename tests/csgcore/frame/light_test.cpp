@@ -508,6 +508,28 @@ TEST(Studio, ComesNearToManyDirections) {
   }
 }
 
+TEST(Studio, AsksMoreDirectionsWhereLightIsNoisy) {
+  std::vector<Box> posts;
+  for (double x = -9; x <= 9; x += 1.5) {
+    for (double y = -9; y <= 9; y += 1.5) posts.push_back({{x, y, 0}, {x + 0.7, y + 0.7, 4}});
+  }
+  const Solid quiet = plate(Op::kUnion, {{{-3, -3, 0}, {3, 3, 1}}}),
+              noisy = plate(Op::kUnion, posts);
+  for (const Solid* solid : {&quiet, &noisy}) {
+    const View view = from_above(solid->bounds());
+    const auto picture = [&](uint32_t directions, double largest_noise) {
+      StudioSettings settings{.shadows = 0, .edges = 0};
+      settings.directions = directions;
+      settings.largest_noise = largest_noise;
+      return studio_picture(*solid, view, settings).rgb;
+    };
+    const auto half = picture(72, 0), all = picture(144, 1e-9);
+    EXPECT_TRUE(half != all);
+    EXPECT_TRUE(picture(144, 1) == half);
+    EXPECT_TRUE(picture(144, 0.031) == (solid == &quiet ? half : all));
+  }
+}
+
 /// A face of a few pixels has no neighbours that could ask all directions for it.
 TEST(Studio, LightsSmallFacesAsWell) {
   std::vector<Primitive> primitives{
