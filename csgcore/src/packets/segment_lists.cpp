@@ -12,13 +12,13 @@ void SegmentList::clear() {
   is_complete_ = false;
 }
 
-void SegmentList::add(const RaySegment& segment) {
-  if (!(segment.start < segment.end)) return;
-  if (segments_.empty() || segments_.back().end < segment.start) {
-    segments_.push_back(segment);
-  } else if (segments_.back().end < segment.end) {
-    segments_.back().end = segment.end;
-    segments_.back().end_face = segment.end_face;
+void SegmentList::add(double start, double end, uint32_t start_face, uint32_t end_face) {
+  if (!(start < end)) return;
+  if (segments_.empty() || segments_.back().end < start) {
+    segments_.push_back({start, end, start_face, end_face});
+  } else if (segments_.back().end < end) {
+    segments_.back().end = end;
+    segments_.back().end_face = end_face;
   }
 }
 
@@ -27,11 +27,10 @@ void SegmentList::take(std::span<const Crossing> crossings, bool are_last) {
     const int before = winding_;
     winding_ += crossing.turn;
     if (before == 0) {
-      open_ = {crossing.t, crossing.t, crossing.face, crossing.face};
+      start_ = crossing.t;
+      start_face_ = crossing.face;
     } else if (winding_ == 0) {
-      open_.end = crossing.t;
-      open_.end_face = crossing.face;
-      add(open_);
+      add(start_, crossing.t, start_face_, crossing.face);
     }
   }
   if (!crossings.empty()) last_ = crossings.back();

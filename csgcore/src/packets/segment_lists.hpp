@@ -38,16 +38,19 @@ class SegmentList {
   template <typename LengthOf>
   void take_sheets(std::span<const Crossing> crossings, const LengthOf& length_of) {
     for (const Crossing& crossing : crossings) {
-      add({crossing.t, crossing.t + length_of(crossing), crossing.face, crossing.face});
+      add(crossing.t, crossing.t + length_of(crossing), crossing.face, crossing.face);
     }
     is_complete_ = true;
   }
 
  private:
-  void add(const RaySegment& segment);
+  /// Takes numbers, since a segment that was just written, number by number, is slow to copy.
+  void add(double start, double end, uint32_t start_face, uint32_t end_face);
 
   std::vector<RaySegment> segments_;
-  RaySegment open_{};  // the segment that the last crossing lies in, if the winding is not 0
+  // Of the segment that the last crossing lies in, if the winding is not 0.
+  double start_ = 0;
+  uint32_t start_face_ = 0;
   Crossing last_;
   int winding_ = 0;
   bool is_complete_ = false;
