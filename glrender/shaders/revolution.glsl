@@ -1,5 +1,5 @@
 // The revolution of a profile. The half plane that holds the figure is passed by a ray on a branch
-// of a hyperbola, its path (revolution_path.hpp). A point of the half plane is a vec3 here: its
+// of a hyperbola, its path (revolution_path-inl.hpp). A point of the half plane is a vec3 here: its
 // distance r from the axis; its height above the path's at τ = 0; and, for the ray's point at this
 // height, the ray's rise times its place ρ.
 

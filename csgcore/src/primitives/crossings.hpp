@@ -22,6 +22,19 @@ struct Crossing {
   }
 };
 
+/// Puts crossings in order. Most rays have a few, which std::sort would take several times as long
+/// for.
+inline void sort(std::vector<Crossing>& crossings) {
+  constexpr size_t kFew = 16;
+  if (crossings.size() > kFew) return std::sort(crossings.begin(), crossings.end());
+  for (size_t i = 1; i < crossings.size(); ++i) {
+    const Crossing crossing = crossings[i];
+    size_t at = i;
+    for (; at > 0 && crossing < crossings[at - 1]; --at) crossings[at] = crossings[at - 1];
+    crossings[at] = crossing;
+  }
+}
+
 /// A search for the next crossings of a packet's rays.
 struct CrossingSearch {
   struct Lane {

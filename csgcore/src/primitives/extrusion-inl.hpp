@@ -270,16 +270,17 @@ HWY_INLINE void cross_lines(const Profile& profile, const PacketLines& rays, Lan
     }
     return passing.through & ~passing.before;
   };
-  walk_profile(
-      profile, lanes, search.stack, pass,
-      [&](const Profile::Piece& piece, LaneMask through) {
-        return lanes_across(piece, rays, through);
-      },
-      [&](uint32_t lane, const Profile::Piece& piece, uint32_t i) {
+  const auto cross = [&](const Profile::Node& node, LaneMask through) {
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      const Profile::Piece& piece = profile.pieces()[i];
+      for_each_lane(lanes_across(piece, rays, through), [&](uint32_t lane) {
         for_each_crossing(rays.line(lane), piece, [&](double along, int turn) {
           search.lanes[lane].found.push_back({along, i, turn});
         });
       });
+    }
+  };
+  walk_profile(profile, lanes, search.stack, pass, cross);
 }
 
 /// Replaces the crossings of a ray's line with the figure by those of the ray with the solid.
@@ -294,7 +295,7 @@ HWY_INLINE void cut_by_caps(const Profile& profile, const PacketLines& rays, siz
     return crossing.t < first || crossing.t > last;
   });
   if (before != 0) found.push_back({-kInfinity, 0, before});
-  std::sort(found.begin(), found.end());
+  sort(found);
   int open = 0;
   for (const Crossing& crossing : found) open += crossing.turn;
   if (open != 0) found.push_back({kInfinity, 0, -open});

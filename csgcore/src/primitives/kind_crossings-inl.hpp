@@ -15,9 +15,6 @@
 #define CSGCORE_KIND_CROSSINGS_INL_HPP
 #endif
 
-#include <algorithm>
-#include <bit>
-
 #include "primitives/extrusion-inl.hpp"
 #include "primitives/mesh-inl.hpp"
 #include "primitives/revolution-inl.hpp"
@@ -47,16 +44,11 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void find_crossings(const FrameRays& frame,
                                                          const RayPacket& packet, LaneMask lanes,
                                                          const CanonicalPrimitive& primitive,
                                                          CrossingSearch& search) {
-  for (LaneMask left = lanes; left != 0; left &= left - 1) {
-    search.lanes[std::countr_zero(left)].found.clear();
-  }
+  for_each_lane(lanes, [&](uint32_t lane) { search.lanes[lane].found.clear(); });
   with_crossings_of_kind(primitive,
                          [&](auto kind) { kind.find(frame, packet, lanes, primitive, search); });
   if (search.most != CrossingSearch::kAll) return;
-  for (LaneMask left = lanes; left != 0; left &= left - 1) {
-    std::vector<Crossing>& found = search.lanes[std::countr_zero(left)].found;
-    std::sort(found.begin(), found.end());
-  }
+  for_each_lane(lanes, [&](uint32_t lane) { sort(search.lanes[lane].found); });
 }
 
 /// Returns whether a search finds all crossings at once.

@@ -9,12 +9,12 @@
 
 namespace csgcore {
 
-/// Calls cross(lane, piece, i) with each lane and the i-th piece of the profile that may cross.
-/// pass(node, lanes) returns those of the lanes for which pieces below the node count, and
-/// across(piece, lanes) those that may cross the piece. `stack` is working memory.
-template <typename Pass, typename Across, typename Cross>
+/// Calls cross(node, lanes) with each leaf and the lanes that may cross its pieces. pass(node,
+/// lanes) returns those of the lanes for which pieces below the node count. `stack` is working
+/// memory.
+template <typename Pass, typename Cross>
 void walk_profile(const Profile& profile, LaneMask lanes, std::vector<CrossingSearch::Visit>& stack,
-                  const Pass& pass, const Across& across, const Cross& cross) {
+                  const Pass& pass, const Cross& cross) {
   stack.assign(1, {0, lanes});
   while (!stack.empty()) {
     const CrossingSearch::Visit visit = stack.back();
@@ -27,10 +27,7 @@ void walk_profile(const Profile& profile, LaneMask lanes, std::vector<CrossingSe
       stack.push_back({node.children, through});
       continue;
     }
-    for (uint32_t i = node.begin; i < node.end; ++i) {
-      const Profile::Piece& piece = profile.pieces()[i];
-      for_each_lane(across(piece, through), [&](uint32_t lane) { cross(lane, piece, i); });
-    }
+    cross(node, through);
   }
 }
 
