@@ -27,22 +27,6 @@ int winding_at(const Profile& profile, const ProfileLine& line, double at) {
   return winding;
 }
 
-Vec2 piece_normal(const Profile::Piece& piece, const Vec2& point) {
-  const auto across = [](const Vec2& v) { return Vec2{v.y, -v.x}; };
-  const Vec2 chord = across(piece.end - piece.start);
-  if (piece.is_line()) return chord;
-  // The areas a, b, c of the triangles that the point makes with two of the three points satisfy
-  // b² = 4·weight²·a·c on the curve, whose gradient this is.
-  const Vec2 from_start = across(piece.control - piece.start);
-  const Vec2 to_end = across(piece.end - piece.control);
-  const double a = glm::dot(to_end, point - piece.control);
-  const double c = glm::dot(from_start, point - piece.start);
-  const double b = glm::dot(chord, point - piece.start);
-  const double factor = 2 * piece.weight * piece.weight;
-  const Vec2 normal = b * chord - factor * (a * from_start + c * to_end);
-  return normal == Vec2(0.0) ? chord : normal;
-}
-
 bool Profile::contains(const Vec2& point) const {
   // Only what lies further right counts, so that the y axis may bound the figure.
   return is_inside(winding_at(*this, {{-1, 0}, -point.y}, -point.x));

@@ -75,6 +75,20 @@ void for_each_crossing(const ProfileLine& line, const Profile::Piece& piece, con
 int winding_at(const Profile& profile, const ProfileLine& line, double at);
 
 /// Returns a normal of the piece, of any length, at a canonical point on it.
-Vec2 piece_normal(const Profile::Piece& piece, const Vec2& point);
+inline Vec2 piece_normal(const Profile::Piece& piece, const Vec2& point) {
+  const auto across = [](const Vec2& v) { return Vec2{v.y, -v.x}; };
+  const Vec2 chord = across(piece.end - piece.start);
+  if (piece.is_line()) return chord;
+  // The areas a, b, c of the triangles that the point makes with two of the three points satisfy
+  // b² = 4·weight²·a·c on the curve, whose gradient this is.
+  const Vec2 from_start = across(piece.control - piece.start);
+  const Vec2 to_end = across(piece.end - piece.control);
+  const double a = glm::dot(to_end, point - piece.control);
+  const double c = glm::dot(from_start, point - piece.start);
+  const double b = glm::dot(chord, point - piece.start);
+  const double factor = 2 * piece.weight * piece.weight;
+  const Vec2 normal = b * chord - factor * (a * from_start + c * to_end);
+  return normal == Vec2(0.0) ? chord : normal;
+}
 
 }  // namespace csgcore

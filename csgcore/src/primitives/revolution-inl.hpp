@@ -112,7 +112,7 @@ struct RevolutionCrossings {
   static Vec3 normal(const CanonicalPrimitive& primitive, uint32_t face, const Vec3& point) {
     const Profile& profile = *primitive.profile();
     const Vec2& radii = profile.radii();
-    const double radius = std::hypot(point.x, point.y);
+    const double radius = std::sqrt(point.x * point.x + point.y * point.y);
     const Vec2 across =
         piece_normal(profile.pieces()[face], {(radius - radii.x) / radii.y, point.z});
     // At an apex, the axis stands in.

@@ -91,15 +91,6 @@ HWY_INLINE WideM is_within(const PathV& path, const PointV& p) {
   return hn::Gt(path.rise2 * beside - p.run * p.run, hn::Zero(Wide()));
 }
 
-HWY_INLINE WideV hypot(WideV x, WideV y) {
-  const Wide d;
-  alignas(64) double xs[kLanes], ys[kLanes];
-  hn::Store(x, d, xs);
-  hn::Store(y, d, ys);
-  for (size_t i = 0; i < kLanes; ++i) xs[i] = std::hypot(xs[i], ys[i]);
-  return hn::Load(d, xs);
-}
-
 /// Finds the paths of the rays, whose origins are the points next to the canonical origin. Returns
 /// which of them may meet the solid.
 HWY_INLINE WideM find_path(const polyhedron_rays::RebasedRays<Wide>& rays, PathV& path) {
@@ -109,7 +100,7 @@ HWY_INLINE WideM find_path(const polyhedron_rays::RebasedRays<Wide>& rays, PathV
   const WideV beside2 = hn::Set(d, kEnclosure2) - dot(d, o, o);
   path.unit = hn::Sqrt(rays.inverse_length2);
   const Lanes3<Wide> along = scaled(rays.direction, path.unit);
-  path.run = hypot(along.x, along.y);
+  path.run = hn::Sqrt(along.x * along.x + along.y * along.y);
   path.run = hn::IfThenElseZero(hn::Gt(path.run, trace), path.run);
   path.rise = hn::IfThenElseZero(hn::Gt(hn::Abs(along.z), trace), along.z);
   path.is_downwards = hn::Lt(path.rise, zero);
