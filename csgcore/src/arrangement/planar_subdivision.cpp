@@ -365,11 +365,9 @@ PlanarSubdivision::Place PlanarSubdivision::find_edge(uint32_t from, uint32_t to
   return result;
 }
 
+/// A segment passes each edge once: the edge does not have the line.
 void PlanarSubdivision::add_line(Place edge, uint32_t line) {
   Triangle& triangle = triangles_[edge.triangle];
-  for (uint32_t link = triangle.lines[edge.edge]; link != kNoPlace; link = links_[link].next) {
-    if (links_[link].line == line) return;
-  }
   links_.push_back({line, triangle.lines[edge.edge]});
   const auto first = static_cast<uint32_t>(links_.size() - 1);
   triangle.lines[edge.edge] = first;

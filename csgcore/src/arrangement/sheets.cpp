@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "arrangement/disjoint_sets.hpp"
+#include "arrangement/drawn_segments.hpp"
 #include "arrangement/facet_crossing.hpp"
 #include "csgcore/stop_scope.hpp"
 
@@ -202,7 +203,7 @@ class SheetMaker {
   struct Line {
     uint32_t facet;            // the first of the other plane, or kNoPlace
     FacetCrossing::Edge edge;  // or kNoPlace
-    uint32_t met;              // the facet of that plane which is met, or kNoPlace
+    uint32_t met;              // the facet of that plane which is met; kNoPlace: none, or several
 
     bool is_edge() const { return edge[0] != kNoPlace; }
   };
@@ -361,11 +362,23 @@ class SheetMaker {
         drawing.draw(from, to, static_cast<uint32_t>(i));
       }
     }
+    std::map<std::pair<uint32_t, FacetCrossing::Edge>, uint32_t> number_of;  // by plane and edge
+    std::vector<Line> crossing;                                              // by number
+    std::vector<DrawnSegment> segments;
     for (size_t i = begin; i < end; ++i) {
-      if (ends[i - begin].first == ends[i - begin].second) continue;
-      lines.push_back({plane_of(traces_[i].other), traces_[i].edge, traces_[i].other});
-      drawing.draw(ends[i - begin].first, ends[i - begin].second,
-                   static_cast<uint32_t>(lines.size() - 1));
+      const auto [from, to] = ends[i - begin];
+      if (from == to) continue;
+      const uint32_t other = traces_[i].other;
+      const Line line{plane_of(other), traces_[i].edge, kNoPlace};
+      const auto [known, is_new] =
+          number_of.try_emplace({line.facet, line.edge}, static_cast<uint32_t>(crossing.size()));
+      if (is_new) crossing.push_back(line);
+      segments.push_back({known->second, other, from, to});
+    }
+    join_overlaps(drawing.points(), segments);
+    for (const auto& [number, met, from, to] : segments) {
+      lines.push_back({crossing[number].facet, crossing[number].edge, met});
+      drawing.draw(from, to, static_cast<uint32_t>(lines.size() - 1));
     }
     Sheet result = finished(drawing, members);
     add_names(drawing, lines, plane, result.aliases);
