@@ -147,10 +147,6 @@ std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
     surfaces[operand] = std::span(facets.facets).subspan(begin, end - begin);
     begin = end;
   }
-  std::vector<uint8_t> has_collapsed(operands.size(), 0);
-  for (const Facets::Touch& touch : facets.touches) {
-    has_collapsed[facets.facets[touch.facet].operand] = 1;
-  }
   std::vector<uint8_t> may_cross(operands.size(), 0);
   const std::stop_token* const stop = stop_of_work;
   tbb::parallel_for(size_t{0}, operands.size(), [&](size_t i) {
@@ -158,8 +154,9 @@ std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
     stop_point();
     const std::span<Facet> surface = surfaces[i];
     if (surface.empty()) return;
-    const bool is_simple =
-        operands[i]->is_simple && has_collapsed[i] == 0 && !has_slivers(facets, surface);
+    const bool is_simple = operands[i]->is_simple &&
+                           surface.size() == operands[i]->triangles.size() &&
+                           !has_slivers(facets, surface);
     if (!is_simple && !is_convex(facets, surface)) {
       may_cross[i] = 1;
       return;

@@ -8,8 +8,9 @@
 namespace csgcore {
 
 /// Returns by operand whether its surface may cross itself or touch itself, or be in several
-/// pieces: one may that is neither said to be simple, without facets that rounding can have turned
-/// over, nor the boundary of a convex solid. Others are turned so that their facets face outwards.
+/// pieces: one may that is neither said to be simple, without facets that rounding has left without
+/// area or can have turned over, nor the boundary of a convex solid. Others are turned so that
+/// their facets face outwards.
 std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets);
 
 }  // namespace csgcore

@@ -196,6 +196,19 @@ TEST(BoundaryMesh, OfEqualCubes) {
   EXPECT_TRUE(difference.vertices.empty());
 }
 
+TEST(BoundaryMesh, LeavesNothingOfAPlateThatRoundingFlattens) {
+  for (const double thickness : {1e-15, 1e-13, 1e-12}) {
+    for (const bool is_simple : {false, true}) {
+      const MeshParts plate = test_support::box_parts({0.3, 0, 2}, {0.3 + thickness, 1, 3});
+      const MeshParts prism = test_support::fan_prism_parts({{-2, -1}, {2, -2}, {1, 3}}, 2);
+      std::vector<TriangleSet> surfaces = surfaces_of({prism, plate});
+      surfaces[1].is_simple = is_simple;
+      const BoundaryMesh mesh = csgcore::boundary_mesh(surfaces, flat_tree(Op::kUnion, 2));
+      EXPECT_EQ(mesh_flaw(mesh), "") << thickness;
+    }
+  }
+}
+
 TEST(BoundaryMesh, OfFacesThatTouchIntersectedIsEmpty) {
   EXPECT_TRUE(
       sound_mesh(Op::kIntersection, {cube({0, 0, 0}, 1), cube({1, 0, 0}, 1)}).triangles.empty());
