@@ -341,9 +341,6 @@ PointHull point_hull(const PointGrid& grid, double flat_thickness) {
   Simplex simplex = simplex_of(grid.points);
   if (simplex.count == 4 && flat_thickness > 0) {
     simplex = flattened(grid.points, simplex, flat_thickness);
-    if (simplex.count == 3) {
-      hull.base = {simplex.points[0], simplex.points[1], simplex.points[2]};
-    }
   }
   hull.dimension = simplex.count - 1;
   if (hull.dimension == 3) {

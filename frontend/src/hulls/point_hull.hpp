@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,9 +54,6 @@ struct PointHull {
   /// The points that the boundary has as corners: of a solid in the given order, of a plane polygon
   /// around it, of a line its two ends.
   std::vector<uint32_t> corners;
-  /// Three points, far from a line, of a hull that is a solid on the grid and only counts as a
-  /// plane polygon; its plane is theirs.
-  std::optional<Triangle> base;
 };
 
 /// Takes O(n log n) but for rare sets. Does not depend on the order of calls or on threads. Points

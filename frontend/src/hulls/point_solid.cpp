@@ -27,8 +27,6 @@ constexpr size_t kMostFaces = 2000;
 /// Corners so near to a triangle's plane count as lying in it, as a share of the hull's size: above
 /// the rounding of tangent points, and far below what shows.
 constexpr double kSamePlane = 0x1p-46;
-/// The thickness of a flat hull, as a share of its size: below a pixel.
-constexpr double kSheet = 0x1p-12;
 /// A hull that is no thicker, as a share of its size, is flat: nothing thinner than 1e-9 of a
 /// design is drawn, and the faces of a thinner one meet at angles so small that their rounding
 /// moves its edges into sight. At this angle it moves them by 2^-23 of the size.
@@ -63,28 +61,12 @@ class LocalHull {
     return result;
   }
 
+  /// The polygon as a mesh that is not closed, since it encloses nothing.
   Primitive sheet() const {
-    const std::vector<uint32_t>& around = hull_.corners;
-    const Vec3 normal =
-        glm::normalize(hull_.base ? this->normal(*hull_.base) : normal_of_polygon());
-    const Vec3 half = 0.5 * kSheet * normal;
-    std::vector<HalfSpace> faces{{normal, glm::dot(normal, vertices_[0] + half)},
-                                 {-normal, glm::dot(-normal, vertices_[0] - half)}};
-    std::vector<Vec3> vertices;
-    for (size_t i = 0; i < around.size(); ++i) {
-      const Vec3& a = vertices_[i];
-      const Vec3& b = vertices_[(i + 1) % around.size()];
-      vertices.push_back(a + half);
-      vertices.push_back(a - half);
-      const Vec3 across = glm::cross(b - a, normal);
-      const double length = glm::length(across);
-      if (length == 0) continue;  // of an edge across what counts as the plane
-      const Vec3 side = across / length;
-      faces.push_back(
-          {side, hull_.base ? reach(side) : std::max(glm::dot(side, a), glm::dot(side, b))});
-    }
-    return placed(csgcore::make_polyhedron(
-        std::make_shared<csgcore::Polyhedron>(std::move(faces), std::move(vertices))));
+    std::vector<csgcore::TriangleMesh::Triangle> triangles;
+    for (uint32_t i = 2; i < vertices_.size(); ++i) triangles.push_back({0, i - 1, i});
+    return placed(csgcore::make_mesh(
+        std::make_shared<csgcore::TriangleMesh>(vertices_, std::move(triangles))));
   }
 
  private:
@@ -102,25 +84,6 @@ class LocalHull {
 
   Vec3 normal(const Triangle& t) const {
     return normal_of(grid_.points[t[0]], grid_.points[t[1]], grid_.points[t[2]]);
-  }
-
-  /// Returns how far the corners reach. The short edges of what only counts as flat have any
-  /// direction: a plane through their ends may cut off others.
-  double reach(const Vec3& direction) const {
-    double result = -std::numeric_limits<double>::infinity();
-    for (const Vec3& corner : vertices_) result = std::max(result, glm::dot(direction, corner));
-    return result;
-  }
-
-  Vec3 normal_of_polygon() const {
-    // The corner that is furthest from the line through the first two.
-    const std::vector<uint32_t>& around = hull_.corners;
-    Vec3 best(0.0);
-    for (size_t i = 2; i < around.size(); ++i) {
-      const Vec3 candidate = normal({around[0], around[1], around[i]});
-      if (glm::length(candidate) > glm::length(best)) best = candidate;
-    }
-    return best;
   }
 
   /// One for each face. Triangles in the plane of a larger one that they are joined to have none.

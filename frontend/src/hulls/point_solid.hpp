@@ -16,8 +16,8 @@ struct PointSolid {
 };
 
 /// Returns the hull: a polyhedron, or a mesh if it has very many faces. Of points in one plane, or
-/// nearly, it is a sheet so thin that it counts as flat. Nothing if the points lie on a line. All
-/// coordinates must be finite. No point of the space within the hull is left out, and what is added
+/// nearly, it is a sheet: a mesh that is not closed. Nothing if the points lie on a line. All
+/// coordinates must be finite. No point of the space within a solid is left out, and what is added
 /// is at most 2^-45 of its size thick; a sheet of points that lie nearly in a plane may be smaller
 /// by as much as these are beside it.
 std::optional<PointSolid> solid_of_points(std::span<const csgcore::Vec3> points);

@@ -2,17 +2,16 @@
 // degenerate they are.
 #include "hulls/point_hull.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 #include <map>
 #include <random>
 #include <set>
-#include <tuple>
 
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/triangle_mesh.hpp"
@@ -128,20 +127,35 @@ TEST(PointSolid, IsASheetOrNothingWithoutVolume) {
   ASSERT_TRUE(sheet);
   EXPECT_TRUE(sheet->is_sheet);
   EXPECT_TRUE(csgcore::is_valid(sheet->primitive));
+  EXPECT_EQ(sheet->primitive.mesh()->triangles().size(), 2u);
+  EXPECT_FALSE(sheet->primitive.mesh()->is_closed());
   EXPECT_FALSE(solid_of_points(std::vector<Vec3>{Vec3(0.0), Vec3(1, 2, 3), Vec3(2, 4, 6)}));
   EXPECT_FALSE(solid_of_points(std::vector<Vec3>(9, Vec3(5, 6, 7))));
 }
 
-/// Returns how far a point is from a polyhedron whose own vertices are near to it; at most 0
-/// within.
-double height_over(const csgcore::Primitive& primitive, const Vec3& point) {
-  const csgcore::Affine to_world = primitive.local_to_world;
-  const Vec3 local = glm::inverse(to_world.linear) * (point - to_world.translation);
-  double height = -std::numeric_limits<double>::infinity();
-  for (const csgcore::HalfSpace& face : primitive.polyhedron()->half_spaces()) {
-    height = std::max(height, glm::dot(face.normal, local) - face.offset);
+std::vector<Vec3> vertices_of(const csgcore::Primitive& sheet) {
+  std::vector<Vec3> result;
+  for (const Vec3& vertex : sheet.mesh()->vertices()) {
+    result.push_back(sheet.local_to_world.point(vertex));
   }
-  return height;
+  return result;
+}
+
+/// Returns how far a point is outside of a sheet's convex polygon as seen from above, where its
+/// vertices are in their order around it; at most 0 within.
+double distance_beside(const std::vector<Vec3>& polygon, const Vec3& point) {
+  const auto cross = [](const Vec3& a, const Vec3& b) { return a.x * b.y - a.y * b.x; };
+  double area = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    area += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
+  double distance = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const double beside = cross(point - polygon[i], edge) / std::hypot(edge.x, edge.y);
+    distance = std::max(distance, area > 0 ? beside : -beside);
+  }
+  return distance;
 }
 
 TEST(PointSolid, OfNearlyFlatPointsIsTheirPolygon) {
@@ -156,17 +170,11 @@ TEST(PointSolid, OfNearlyFlatPointsIsTheirPolygon) {
   ASSERT_TRUE(hull);
   EXPECT_TRUE(hull->is_sheet);
   EXPECT_TRUE(csgcore::is_valid(hull->primitive));
-  // It is the triangle of the other three: not a point beside its edges belongs to it.
-  const Vec3 &a = points[0], &b = points[1], &c = points[3];
-  for (double s = 0; s <= 1; s += 0.01) {
-    for (const auto& [from, to, other] :
-         {std::tuple(a, b, c), std::tuple(b, c, a), std::tuple(c, a, b)}) {
-      const Vec3 edge = from + s * (to - from);
-      const Vec3 outwards = edge - (from + to + other) / 3.0;
-      EXPECT_LE(height_over(hull->primitive, edge - 1e-6 * outwards), 0) << s;
-      EXPECT_GT(height_over(hull->primitive, edge + 1e-6 * outwards), 0) << s;
-    }
-  }
+  const auto near = [](const Vec3& point) {
+    return testing::Truly([=](const Vec3& at) { return glm::distance(at, point) < 1e-12; });
+  };
+  EXPECT_THAT(vertices_of(hull->primitive),
+              testing::UnorderedElementsAre(near(points[0]), near(points[1]), near(points[3])));
 }
 
 TEST(PointSolid, OfNearlyFlatPointsHoldsThemHoweverCloseTheyAre) {
@@ -186,10 +194,11 @@ TEST(PointSolid, OfNearlyFlatPointsHoldsThemHoweverCloseTheyAre) {
     ASSERT_TRUE(hull);
     EXPECT_TRUE(hull->is_sheet);
     EXPECT_TRUE(csgcore::is_valid(hull->primitive));
-    for (const Vec3& point : points) EXPECT_LE(height_over(hull->primitive, point), noise) << seed;
+    const std::vector<Vec3> polygon = vertices_of(hull->primitive);
+    for (const Vec3& point : points) EXPECT_LE(distance_beside(polygon, point), noise) << seed;
     csgcore::Box box;
     for (const Vec3& point : points) box.merge(point);
-    EXPECT_GT(height_over(hull->primitive, box.max + Vec3(1e-3, 1e-3, 0)), 0);
+    EXPECT_GT(distance_beside(polygon, box.max + Vec3(1e-3, 1e-3, 0)), 0);
   }
   // Nearly on a line there is nothing to draw; a hundred times thicker than flat is a solid.
   std::vector<Vec3> line, thin;
