@@ -216,20 +216,29 @@ void ModelExport::find_operands() {
       is_open[used[i]] = csgcore::open_edges(surface) > 0;
     }
   });
-  if (used.size() == 1 && is_open[used.front()]) {
+  const bool is_alone = used.size() == 1 && is_open[used.front()];
+  // A node of several primitives is there if one of them is: others are sheets that pictures have.
+  std::vector<bool> is_there(design_.places.size(), false);
+  const auto id_of = [&](uint32_t primitive) { return scene.primitives[primitive].id; };
+  for (const uint32_t primitive : used) {
+    if (!is_open[primitive] && id_of(primitive) < is_there.size())
+      is_there[id_of(primitive)] = true;
+  }
+  NodeProblems problems;
+  for (const uint32_t primitive : used) {
+    const uint32_t id = id_of(primitive);
+    if (!is_open[primitive] || id >= is_there.size() || is_there[id]) continue;
+    problems.add(tree_.nodes->nodes[design_.places[id]],
+                 {is_alone ? " is written as it is, which is no solid"
+                           : " is left out of the file: it is no solid",
+                  "close its surface"});
+  }
+  warnings_ = problems.warnings(tree_);
+  if (is_alone) {
     surface_ = std::move(operands_[used.front()]);
     parts_ = {{*surface_, {}}};
     return;
   }
-  NodeProblems problems;
-  for (const uint32_t primitive : used) {
-    if (!is_open[primitive]) continue;
-    const uint32_t id = scene.primitives[primitive].id;
-    if (id >= design_.places.size()) continue;  // it is no solid of the file's, but what is left
-    problems.add(tree_.nodes->nodes[design_.places[id]],
-                 {" is left out of the file: it is no solid", "close its surface"});
-  }
-  warnings_ = problems.warnings(tree_);
   csgcore::CsgTreeBuilder builder;
   rebuild(scene.model.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t primitive) {
     is_open[primitive] ? to.empty() : to.primitive(primitive);

@@ -299,10 +299,35 @@ TEST(ModelExport, AnOpenSurfaceIsLeftOut) {
                           "(close its surface)"));
 }
 
+TEST(ModelExport, AFlatHullIsLeftOutAndCutsNothing) {
+  const std::string flat =
+      "hull() { polyhedron(points = [[-1, -1, 1], [9, -1, 1], [-1, 9, 1]], "
+      "faces = [[0, 1, 2]], convexity = 1); }\n";
+  for (const char* const operation : {"union", "difference"}) {
+    Exported exported(operation + (" () {\n" + kCube) + flat + "}");
+    EXPECT_NEAR(exported.volume(), 6, 1e-9);
+    EXPECT_EQ(exported.area(), 22);
+    EXPECT_THAT(exported.warnings(),
+                ElementsAre(HasSubstr("a.csg:3:1: warning: hull is left out")));
+  }
+}
+
+TEST(ModelExport, SheetsOfASolidThatIsThereAreNotToldOf) {
+  // The sides turn around the axis within one slice: two pyramids whose tops touch.
+  Exported exported(
+      "linear_extrude(height = 6, center = false, convexity = 1, twist = 180, slices = 1, scale = "
+      "[1, 1], $fn = 0, $fa = 12, $fs = 2) { multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) "
+      "{ square(size = [4, 3], center = false); } }");
+  EXPECT_NEAR(exported.volume(), 24, 1e-9);
+  EXPECT_THAT(exported.warnings(), IsEmpty());
+}
+
 TEST(ModelExport, AnOpenSurfaceAloneIsWrittenAsItIs) {
   Exported exported(kOpen);
   EXPECT_THAT(exported.as(ModelFormat::kOff), testing::StartsWith("OFF 4 3 0\n"));
-  EXPECT_THAT(exported.warnings(), IsEmpty());
+  EXPECT_THAT(exported.warnings(),
+              ElementsAre("a.csg:1:1: warning: polyhedron is written as it is, which is no solid "
+                          "(close its surface)"));
 }
 
 TEST(ModelExport, ColoursAreMaterialsOfThreeMf) {
