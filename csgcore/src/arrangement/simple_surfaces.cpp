@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "csgcore/stop_scope.hpp"
@@ -122,17 +123,29 @@ bool is_convex(const Facets& facets, std::span<const Facet> surface) {
   return true;
 }
 
-/// Returns whether a corner of a facet is so near to the edge opposite it that rounding may have
-/// taken it to the other side, so that the facet lies over its neighbour.
-bool has_slivers(const Facets& facets, std::span<const Facet> surface) {
-  return std::ranges::any_of(surface, [&](const Facet& facet) {
+/// Returns whether rounding may have folded the surface: a corner of a facet is so near to the edge
+/// opposite it that it may be on the other side, and the facet lies over its neighbour; or all
+/// corners are so near to the plane of the largest facet.
+bool may_be_folded(const Facets& facets, std::span<const Facet> surface) {
+  Vec3 largest(0.0);
+  Vec3 origin(0.0);
+  for (const Facet& facet : surface) {
     const auto& [a, b, c] = facet.corners;
     const Vec3 p = to_vec3(facets.points[a]);
     const Vec3 q = to_vec3(facets.points[b]) - p;
     const Vec3 r = to_vec3(facets.points[c]) - p;
     const Vec3 area = glm::cross(q, r);
     const double longest = std::max({glm::dot(q, q), glm::dot(r, r), glm::dot(r - q, r - q)});
-    return glm::dot(area, area) <= kFlat * kFlat * longest;
+    if (glm::dot(area, area) <= kFlat * kFlat * longest) return true;
+    if (glm::dot(area, area) <= glm::dot(largest, largest)) continue;
+    largest = area;
+    origin = p;
+  }
+  const double most = kFlat * glm::length(largest);
+  return std::ranges::all_of(surface, [&](const Facet& facet) {
+    return std::ranges::all_of(facet.corners, [&](uint32_t corner) {
+      return std::abs(glm::dot(largest, to_vec3(facets.points[corner]) - origin)) <= most;
+    });
   });
 }
 
@@ -156,7 +169,7 @@ std::vector<bool> find_simple_surfaces(Surfaces operands, Facets& facets) {
     if (surface.empty()) return;
     const bool is_simple = operands[i]->is_simple &&
                            surface.size() == operands[i]->triangles.size() &&
-                           !has_slivers(facets, surface);
+                           !may_be_folded(facets, surface);
     if (!is_simple && !is_convex(facets, surface)) {
       may_cross[i] = 1;
       return;

@@ -2,11 +2,13 @@
 // other programs read (frontend/OPTIONS.md).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "csgcore/csg_tree.hpp"
+#include "csgcore/solid.hpp"
 #include "csgcore/triangle_set.hpp"
 #include "frontend/design_tree.hpp"
 #include "frontend/error.hpp"
@@ -59,6 +61,7 @@ class ModelExport {
  private:
   [[noreturn]] void fail_as_too_small() const;
   void find_operands();
+  csgcore::TriangleSet boundary_of(const csgcore::CsgTree& tree);
   const csgcore::TriangleSet& surface_or_nothing();
   const csgcore::TriangleSet& surface();
   const std::vector<ExportedPart>& parts();
@@ -72,6 +75,7 @@ class ModelExport {
   bool has_operands_ = false;
   std::vector<csgcore::TriangleSet> operands_;  // by primitive; empty if the solid has it not
   csgcore::CsgTree solid_;                      // over the operands
+  std::shared_ptr<const csgcore::CanonicalPrimitives> primitives_;  // null until they are needed
   std::optional<csgcore::TriangleSet> surface_;
   std::optional<std::vector<ExportedPart>> parts_;
   std::vector<Warning> warnings_;

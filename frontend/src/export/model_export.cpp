@@ -11,7 +11,6 @@
 
 #include "arguments/node_problems.hpp"
 #include "csgcore/polyhedron.hpp"
-#include "csgcore/solid.hpp"
 #include "csgcore/stop_scope.hpp"
 #include "csgcore/workers.hpp"
 #include "export/colored_parts.hpp"
@@ -248,11 +247,14 @@ void ModelExport::find_operands() {
 
 const TriangleSet& ModelExport::surface_or_nothing() {
   find_operands();
-  if (surface_) return *surface_;
-  const auto primitives = csgcore::canonical_primitives(design_.scene);
-  surface_ = framed_boundary(operands_, csgcore::without_redundant_operands(*primitives, solid_),
-                             design_.turned_frames);
+  if (!surface_) surface_ = boundary_of(solid_);
   return *surface_;
+}
+
+TriangleSet ModelExport::boundary_of(const csgcore::CsgTree& tree) {
+  if (!primitives_) primitives_ = csgcore::canonical_primitives(design_.scene);
+  return framed_boundary(operands_, csgcore::without_redundant_operands(*primitives_, tree),
+                         design_.turned_frames);
 }
 
 const TriangleSet& ModelExport::surface() {
@@ -297,7 +299,7 @@ const std::vector<ExportedPart>& ModelExport::parts() {
     return *parts_;
   }
   for (const ColoredTree& part : trees) {
-    TriangleSet surface = framed_boundary(operands_, part.tree, design_.turned_frames);
+    TriangleSet surface = boundary_of(part.tree);
     if (!surface.triangles.empty()) parts_->push_back({std::move(surface), part.color});
   }
   if (parts_->empty()) throw Error(tree_.name, {}, "Current top level object is empty.", "");
