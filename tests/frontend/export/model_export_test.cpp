@@ -239,6 +239,9 @@ TEST(ModelExport, SolidsWithinOthersAreLeftOut) {
               ", r1 = 10, r2 = 10, center = false);\n";
   }
   EXPECT_NEAR(Exported(nested).volume(), 5.6 * 150 * std::sqrt(3.0), 1e-6);
+  const std::string colored = "color([1, 0, 0, 1]) " + kFar + "{" + kFar + "{" + kCube + "}}";
+  EXPECT_NEAR(Exported(nested + colored).volume(ModelFormat::k3mf), 5.6 * 150 * std::sqrt(3.0) + 6,
+              1e-4);
   // Each colour is a part of its own, also within another.
   const std::string colors =
       "color([0,0,1,1]) cube(size = [3, 3, 3], center = true);"
