@@ -59,9 +59,9 @@ class LightTracer {
  private:
   struct Rays;
   struct Memory;
-  class Lease;
   class Visitor;
-  void look(const FrameRays& frame, Rays& rays, std::span<LightSum> sums,
+  std::unique_ptr<Rays> take_rays() const;
+  void look(const FrameRays& frame, std::unique_ptr<Rays> rays, std::span<LightSum> sums,
             const std::stop_token& stop) const;
   const Solid& solid_;
   const std::unique_ptr<Memory> memory_;

@@ -11,7 +11,7 @@
 namespace csgcore {
 
 /// StudioSettings::directions and largest_noise of a first picture: fewer directions show in
-/// hollows.
+/// hollows (tests/benchmark/NOTES.md, "The studio's light", has what scenes come to).
 constexpr uint32_t kFewDirections = 144;
 constexpr double kFewDirectionsNoise = 0.045;
 

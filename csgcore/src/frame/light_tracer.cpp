@@ -5,9 +5,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
-#include <mutex>
+#include <utility>
 #include <vector>
 
+#include "base/pool.hpp"
 #include "rays/frame_rays.hpp"
 #include "tiles/tile_tracer.hpp"
 
@@ -54,6 +55,11 @@ void set_pixels(double width, double height, double least, size_t count, View& v
   view.width_px = pixels(width);
   view.height_px = pixels(height);
   view.half_height = 0.5 * pixel * view.height_px;
+}
+
+/// Returns which points get any light.
+void find_open(std::span<const LightSum> sums, std::span<uint8_t> lit) {
+  std::ranges::transform(sums, lit.begin(), [](const LightSum& sum) { return sum.open > 0; });
 }
 
 /// A ray of one view, from the light to a point.
@@ -175,33 +181,7 @@ class LightTracer::Visitor final : public TileVisitor {
 
 struct LightTracer::Memory {
   std::shared_ptr<TileTracer::Workspaces> tiles = std::make_shared<TileTracer::Workspaces>();
-  std::mutex mutex;
-  std::vector<std::unique_ptr<Rays>> free;
-};
-
-/// Holds working memory for as long as it lives.
-class LightTracer::Lease {
- public:
-  explicit Lease(Memory& memory) : memory_(memory) {
-    const std::lock_guard lock(memory_.mutex);
-    if (memory_.free.empty()) {
-      rays_ = std::make_unique<Rays>();
-    } else {
-      rays_ = std::move(memory_.free.back());
-      memory_.free.pop_back();
-    }
-  }
-  ~Lease() {
-    const std::lock_guard lock(memory_.mutex);
-    memory_.free.push_back(std::move(rays_));
-  }
-  Lease(const Lease&) = delete;
-  Lease& operator=(const Lease&) = delete;
-  Rays& operator*() const { return *rays_; }
-
- private:
-  Memory& memory_;
-  std::unique_ptr<Rays> rays_;
+  Pool<Rays> rays;
 };
 
 LightTracer::LightTracer(const Solid& solid) : solid_(solid), memory_(std::make_unique<Memory>()) {}
@@ -210,9 +190,7 @@ LightTracer::~LightTracer() = default;
 void LightTracer::add_light(const SurfacePoints& points, const Vec3& to_light,
                             std::span<LightSum> sums, const std::stop_token& stop) const {
   if (stop.stop_requested()) return;
-  const Lease lease(*memory_);
-  Rays& rays = *lease;
-  rays.unsorted.clear();
+  std::unique_ptr<Rays> rays = take_rays();
   View view;
   view.projection = Projection::kOrthographic;
   view.forward = -to_light;
@@ -233,33 +211,33 @@ void LightTracer::add_light(const SurfacePoints& points, const Vec3& to_light,
     high = glm::max(high, seen);
     const auto weight = static_cast<float>(cosine);
     sums[i].all += weight;
-    rays.unsorted.push_back({seen.x, seen.y, seen.z - own_face / cosine, i, weight});
+    rays->unsorted.push_back({seen.x, seen.y, seen.z - own_face / cosine, i, weight});
   }
-  if (rays.unsorted.empty()) return;
+  if (rays->unsorted.empty()) return;
   const Vec3 middle = 0.5 * (low + high);
   view.eye = center + middle.x * view.right + middle.y * view.up + middle.z * view.forward;
   // Where the points lie in a line, or are one, the rectangle has some width all the same.
   const double width = high.x - low.x, height = high.y - low.y;
   const double least = std::max({kLeastWidth * (width + height), kLeastSize * glm::length(view.eye),
                                  std::numeric_limits<double>::min()});
-  set_pixels(width, height, least, rays.unsorted.size(), view);
+  set_pixels(width, height, least, rays->unsorted.size(), view);
   const FrameRays frame = frame_rays(view, bounds);
   const Vec3 from_eye = center - view.eye;
   const double u = glm::dot(from_eye, view.right), v = glm::dot(from_eye, view.up);
   const double depth = glm::dot(center - frame.pivot, view.forward);
-  for (LightRay& ray : rays.unsorted) {
+  for (LightRay& ray : rays->unsorted) {
     ray.u += u;
     ray.v += v;
     ray.least_depth += depth;
   }
-  look(frame, rays, sums, stop);
+  look(frame, std::move(rays), sums, stop);
 }
 
 void LightTracer::find_lit(const SurfacePoints& points, const Vec3& to_light,
                            std::span<uint8_t> lit, const std::stop_token& stop) const {
   std::vector<LightSum> sums(lit.size());
   add_light(points, to_light, sums, stop);
-  std::ranges::transform(sums, lit.begin(), [](const LightSum& sum) { return sum.open > 0; });
+  find_open(sums, lit);
 }
 
 void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
@@ -289,9 +267,7 @@ void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
   const double own_face = own_face_height(solid_.bounds());
   for (size_t side = 0; side < std::size(axes); ++side) {
     if (seen[side].empty()) continue;
-    const Lease lease(*memory_);
-    Rays& rays = *lease;
-    rays.unsorted.clear();
+    std::unique_ptr<Rays> rays = take_rays();
     view.forward = axes[side];
     set_axes(view);
     double width = 0, height = 0;
@@ -302,29 +278,37 @@ void LightTracer::find_lit_from(const SurfacePoints& points, const Vec3& light,
       width = std::max(width, 2 * std::abs(u));
       height = std::max(height, 2 * std::abs(v));
       const Vec3 direction = view.forward + u * view.right + v * view.up;
-      rays.unsorted.push_back(
+      rays->unsorted.push_back(
           {u, v, own_face / glm::dot(points.normal[point], direction), point, 1});
     }
     set_pixels(width, height, kLeastSize, seen[side].size(), view);
     const FrameRays frame = frame_rays(view, solid_.bounds());
-    for (LightRay& ray : rays.unsorted) {
+    for (LightRay& ray : rays->unsorted) {
       ray.least_depth += glm::dot(points.position[ray.point] - frame.pivot, view.forward);
     }
-    look(frame, rays, sums, stop);
+    look(frame, std::move(rays), sums, stop);
   }
-  std::ranges::transform(sums, lit.begin(), [](const LightSum& sum) { return sum.open > 0; });
+  find_open(sums, lit);
+}
+
+std::unique_ptr<LightTracer::Rays> LightTracer::take_rays() const {
+  std::unique_ptr<Rays> rays = memory_->rays.take();
+  if (!rays) return std::make_unique<Rays>();
+  rays->unsorted.clear();
+  return rays;
 }
 
 /// Answers for rays that lie within the view's picture.
-void LightTracer::look(const FrameRays& frame, Rays& rays, std::span<LightSum> sums,
+void LightTracer::look(const FrameRays& frame, std::unique_ptr<Rays> rays, std::span<LightSum> sums,
                        const std::stop_token& stop) const {
   TraceParameters parameters;
   parameters.thickness_tolerance = thickness_tolerance(solid_.bounds());
   parameters.stop = stop;
   TileTracer tracer(solid_, frame, parameters, TileRules{.centers_only = false}, memory_->tiles);
-  rays.sort_by_pixels(frame.view);
-  Visitor visitor(frame, rays, sums);
+  rays->sort_by_pixels(frame.view);
+  Visitor visitor(frame, *rays, sums);
   tracer.visit({0, 0, frame.view.width_px, frame.view.height_px}, visitor);
+  memory_->rays.give_back(std::move(rays));
 }
 
 }  // namespace csgcore

@@ -521,6 +521,7 @@ class Studio {
 
 void finish(const Solid& solid, const View& view, const StudioSettings& settings,
             const TraceOptions& options, const SparseHits& hits, Image& image, TraceStats& stats) {
+  if (options.stop.stop_requested()) return;
   const auto start = std::chrono::steady_clock::now();
   with_threads(options.threads,
                [&] { Studio(solid, view, settings, options, hits, image).finish(); });
@@ -546,7 +547,6 @@ void draw_studio(const Solid& solid, const View& view, const FrameSettings& fram
                  TraceStats& stats) {
   SparseHits hits;
   draw(solid, view, frame, options, image, hits, stats);
-  if (options.stop.stop_requested()) return;
   finish(solid, view, settings, options, hits, image, stats);
 }
 

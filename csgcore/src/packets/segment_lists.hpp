@@ -48,7 +48,7 @@ class SegmentList {
   void add(double start, double end, uint32_t start_face, uint32_t end_face);
 
   std::vector<RaySegment> segments_;
-  // Of the segment that the last crossing lies in, if the winding is not 0.
+  // The start of the segment that the last crossing lies in has these, if the winding is not 0.
   double start_ = 0;
   uint32_t start_face_ = 0;
   Crossing last_;

@@ -31,6 +31,8 @@ namespace revolution_rays {
 
 /// The solid lies within |z| ≤ 1, hypot(x, y) ≤ 1, and in a ball of this squared radius.
 constexpr double kEnclosure2 = 2.0001;
+/// The height within which it lies, and a little more, so that no rounding cuts it.
+constexpr double kEnclosureHeight = 1 + 1e-9;
 /// A ray is level, or runs along the axis, if its direction has less than this share along it, or
 /// across it. Within the solid it does not drift by a bit of its coordinates.
 constexpr double kTrace = 1e-30;
@@ -105,8 +107,8 @@ HWY_INLINE WideM find_path(const polyhedron_rays::RebasedRays<Wide>& rays, PathV
   path.rise = hn::IfThenElseZero(hn::Gt(hn::Abs(along.z), trace), along.z);
   path.is_downwards = hn::Lt(path.rise, zero);
   const WideM is_level = hn::Eq(path.rise, zero), is_upright = hn::Eq(path.run, zero);
-  // The solid's height, and a little more.
-  const WideV end = hn::IfThenElse(path.is_downwards, hn::Set(d, -1 - 1e-9), hn::Set(d, 1 + 1e-9));
+  const WideV height = hn::Set(d, kEnclosureHeight);
+  const WideV end = hn::IfThenElse(path.is_downwards, hn::Neg(height), height);
   const WideV half_chord = hn::Sqrt(beside2);
   WideV first = hn::Neg(half_chord), last = half_chord;  // from the origin, per unit of length
   first = hn::IfThenElse(is_level, first, hn::Max(first, (hn::Neg(end) - o.z) / path.rise));

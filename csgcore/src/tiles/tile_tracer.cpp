@@ -126,28 +126,21 @@ TileTracer::Workspaces::~Workspaces() = default;
 /// Holds a workspace for as long as it lives.
 class TileTracer::Lease {
  public:
-  explicit Lease(TileTracer& owner) : owner_(*owner.workspaces_) {
-    const std::lock_guard lock(owner_.mutex_);
-    if (owner_.free_.empty()) {
-      owner_.all_.push_back(std::make_unique<Workspace>(owner));
-      workspace_ = owner_.all_.back().get();
-      return;
+  explicit Lease(TileTracer& owner) : pool_(owner.workspaces_->pool_), workspace_(pool_.take()) {
+    if (workspace_) {
+      workspace_->aim_at(owner);
+    } else {
+      workspace_ = std::make_unique<Workspace>(owner);
     }
-    workspace_ = owner_.free_.back();
-    owner_.free_.pop_back();
-    workspace_->aim_at(owner);
   }
-  ~Lease() {
-    const std::lock_guard lock(owner_.mutex_);
-    owner_.free_.push_back(workspace_);
-  }
+  ~Lease() { pool_.give_back(std::move(workspace_)); }
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
   Workspace& operator*() const { return *workspace_; }
 
  private:
-  Workspaces& owner_;
-  Workspace* workspace_;
+  Pool<Workspace>& pool_;
+  std::unique_ptr<Workspace> workspace_;
 };
 
 namespace {
@@ -469,7 +462,7 @@ TileTracer::Counts& TileTracer::Counts::operator+=(const Counts& other) {
 
 TileTracer::Counts TileTracer::Workspaces::counts() const {
   Counts sum;
-  for (const auto& workspace : all_) {
+  for (const auto& workspace : pool_.all()) {
     const PacketWorkspace& packets = workspace->packets;
     sum += {workspace->tiles, packets.rays, packets.intersections, packets.resolved_rays};
   }

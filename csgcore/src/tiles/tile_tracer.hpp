@@ -4,9 +4,9 @@
 
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "base/pool.hpp"
 #include "csgcore/solid.hpp"
 #include "packets/hit_sink.hpp"
 #include "packets/packet.hpp"
@@ -171,9 +171,7 @@ class TileTracer::Workspaces {
 
  private:
   friend class Lease;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Workspace>> all_;
-  std::vector<Workspace*> free_;
+  Pool<Workspace> pool_;
 };
 
 inline TileTracer::Counts TileTracer::counts() const { return workspaces_->counts(); }
